@@ -1,0 +1,233 @@
+//! The Behaviour stage: which sub-role a robot acts in, which homebase it has, and which state its machine is in.
+//!
+//! At most one transition a decision, the first whose feature holds, as in Clay.
+
+mod memory;
+mod perception;
+
+use std::collections::VecDeque;
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+
+pub use memory::Memory;
+pub use perception::{Perception, PointSet};
+
+use crate::ball::Ball;
+use crate::clock::Clock;
+use crate::geometry::Zone;
+use crate::ids::RobotId;
+use crate::pitch::Pitch;
+use crate::referee::OffPitch;
+use crate::robot::Robot;
+use crate::schedule::{Tick, TickSystems};
+use crate::sense::Odometry;
+use crate::strategy::{Part, RoleSpec, Strategies, Strategy};
+use crate::teamwork::Role;
+use crate::world_model::WorldModel;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(Tick, choose_activities.in_set(TickSystems::Behaviour));
+}
+
+/// What a robot is doing: the role it acts in, the state of that role's machine, and since when.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Activity {
+    /// Index into the strategy's roles: the role itself, or the sub-role that the robot acts in.
+    pub acting_as: usize,
+    /// Index into the states of that role's machine.
+    pub state: usize,
+    /// The tick in which the state was entered.
+    pub since: u64,
+    /// Where the robot goes when it has nothing better to do, m in the team frame.
+    pub homebase: Vec2,
+    /// The last transitions, oldest first.
+    pub history: VecDeque<Taken>,
+}
+
+/// A transition that was taken.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Taken {
+    pub tick: u64,
+    pub from: String,
+    pub to: String,
+    /// The feature that fired.
+    pub because: String,
+}
+
+/// Transitions that are kept for people to see.
+const HISTORY: usize = 8;
+
+impl Activity {
+    /// The first activity of a robot in this role.
+    pub fn new(strategy: &Strategy, role: usize, tick: u64) -> Activity {
+        let acting_as = match &strategy.roles[role].part {
+            Part::Plays { .. } => role,
+            Part::ActsAs(sub_roles) => sub_roles[sub_roles.len() - 1].role,
+        };
+        let (machine, _, homebases) = played(&strategy.roles[acting_as]);
+        let state = strategy.machines[machine].start;
+        Activity { acting_as, state, since: tick, homebase: homebases[0], history: VecDeque::new() }
+    }
+
+    /// The machine that the robot runs.
+    pub fn machine(&self, strategy: &Strategy) -> usize {
+        played(&strategy.roles[self.acting_as]).0
+    }
+
+    /// The robot's zone of control.
+    pub fn danger_zone(&self, strategy: &Strategy) -> Zone {
+        played(&strategy.roles[self.acting_as]).1
+    }
+
+    /// This activity under a changed strategy: the role and the state of the same names, where they still exist.
+    pub fn carried_over(&self, old: &Strategy, new: &Strategy, role: usize, tick: u64) -> Activity {
+        let fresh = Activity::new(new, role, tick);
+        let acting = &old.roles[self.acting_as].name;
+        let Some(acting_as) = new.roles.iter().position(|spec| spec.name == *acting) else { return fresh };
+        let Part::Plays { machine, .. } = new.roles[acting_as].part else { return fresh };
+        let state = &old.state(self.machine(old), self.state).name;
+        match new.machines[machine].states.iter().position(|candidate| candidate.name == *state) {
+            Some(state) => Activity { acting_as, state, ..self.clone() },
+            None => Activity { acting_as, state: new.machines[machine].start, since: tick, ..self.clone() },
+        }
+    }
+
+    fn note(&mut self, tick: u64, from: &str, to: &str, because: &str) {
+        if self.history.len() == HISTORY {
+            self.history.pop_front();
+        }
+        let (from, to, because) = (from.into(), to.into(), because.into());
+        self.history.push_back(Taken { tick, from, to, because });
+    }
+}
+
+/// Machine, zone of control and homebases of a role that plays itself; loading makes sure that `acting_as` is one.
+fn played(spec: &RoleSpec) -> (usize, Zone, &[Vec2]) {
+    match &spec.part {
+        Part::Plays { machine, danger_zone, homebases } => (*machine, *danger_zone, homebases),
+        Part::ActsAs(_) => unreachable!("{} acts as other roles and has no machine", spec.name),
+    }
+}
+
+/// What a robot decides upon. Read by the Behaviour and Motor stages.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct Mind {
+    pub id: &'static RobotId,
+    pub robot: &'static Robot,
+    pub model: &'static WorldModel,
+    pub odometry: &'static Odometry,
+    pub memory: &'static mut Memory,
+}
+
+/// The perception of a robot in an activity.
+pub fn perception<'a>(
+    (id, robot, model, odometry): (RobotId, &Robot, &'a WorldModel, &Odometry),
+    activity: &Activity,
+    strategy: &Strategy,
+    (clock, pitch, ball): (&Clock, &'a Pitch, &Ball),
+) -> Perception<'a> {
+    let seconds_since = |tick: u64| clock.tick.saturating_sub(tick) as f32 * clock.dt;
+    Perception {
+        team: id.team,
+        model,
+        pitch,
+        danger_zone: activity.danger_zone(strategy),
+        homebase: activity.homebase,
+        now: clock.now() as f32,
+        ball_age: model.ball.map(|ball| seconds_since(ball.seen)),
+        time_in_state: seconds_since(activity.since),
+        stalled_for: odometry.stalled_for,
+        front: robot.kind.body.length / 2.0,
+        ball_radius: ball.kind.radius,
+    }
+}
+
+fn choose_activities(
+    clock: Res<Clock>,
+    pitch: Res<Pitch>,
+    strategies: Res<Strategies>,
+    ball: Single<&Ball>,
+    mut robots: Query<(Mind, &Role, &mut Activity), Without<OffPitch>>,
+) {
+    for (mut mind, role, mut activity) in &mut robots {
+        if !mind.robot.decides(&clock) {
+            continue;
+        }
+        let strategy = strategies.of(mind.id.team);
+        let senses = perception(
+            (*mind.id, mind.robot, mind.model, mind.odometry),
+            &activity,
+            strategy,
+            (&clock, &pitch, &ball),
+        );
+        let memory = &mut *mind.memory;
+        choose_sub_role(&senses, strategy, role.0, memory, &mut activity, clock.tick);
+        choose_homebase(mind.model.pose.position, strategy, &mut activity);
+        let senses =
+            Perception { danger_zone: activity.danger_zone(strategy), homebase: activity.homebase, ..senses };
+        take_transition(&senses, strategy, memory, &mut activity, clock.tick);
+    }
+}
+
+fn choose_sub_role(
+    senses: &Perception,
+    strategy: &Strategy,
+    role: usize,
+    memory: &mut Memory,
+    activity: &mut Activity,
+    tick: u64,
+) {
+    let spec = &strategy.roles[role];
+    let wanted = match &spec.part {
+        Part::Plays { .. } => role,
+        Part::ActsAs(sub_roles) => {
+            let fits = sub_roles.iter().filter(|sub_role| senses.holds(&sub_role.when, memory));
+            match fits.map(|sub_role| sub_role.role).next() {
+                Some(role) => role,
+                None if sub_roles.iter().any(|sub_role| sub_role.role == activity.acting_as) => return,
+                None => sub_roles[0].role,
+            }
+        }
+    };
+    if wanted == activity.acting_as {
+        return;
+    }
+    let before = strategy.state(activity.machine(strategy), activity.state).name.clone();
+    activity.acting_as = wanted;
+    let machine = &strategy.machines[activity.machine(strategy)];
+    activity.state = machine.states.iter().position(|state| state.name == before).unwrap_or(machine.start);
+    activity.since = tick;
+    let after = format!("{} as {}", machine.states[activity.state].name, strategy.roles[wanted].name);
+    activity.note(tick, &before, &after, "sub-role");
+}
+
+/// A role with several homebases takes the one that is nearest to the robot, with a little loyalty to the present one.
+fn choose_homebase(own: Vec2, strategy: &Strategy, activity: &mut Activity) {
+    const LOYALTY: f32 = 0.3;
+    let (.., homebases) = played(&strategy.roles[activity.acting_as]);
+    let present = activity.homebase;
+    let cost = |home: &Vec2| home.distance(own) - if *home == present { LOYALTY } else { 0.0 };
+    if let Some(nearest) = homebases.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))) {
+        activity.homebase = *nearest;
+    }
+}
+
+fn take_transition(
+    senses: &Perception,
+    strategy: &Strategy,
+    memory: &mut Memory,
+    activity: &mut Activity,
+    tick: u64,
+) {
+    let machine = &strategy.machines[activity.machine(strategy)];
+    let state = &machine.states[activity.state];
+    let Some(transition) = state.transitions.iter().find(|candidate| senses.holds(&candidate.when, memory))
+    else {
+        return;
+    };
+    activity.state = transition.go;
+    activity.since = tick;
+    activity.note(tick, &state.name, &machine.states[transition.go].name, &transition.label);
+}

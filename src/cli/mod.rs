@@ -1,0 +1,90 @@
+//! The command line. One file a subcommand; what goes wrong with a user's input ends in one line and exit code 2.
+
+mod check;
+mod play;
+mod run;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::data::{AssetFolder, DataError};
+use crate::game::{Choice, MatchPlan};
+use crate::ids::RobotId;
+
+/// Robot soccer between teams of behaviour-based robots. Without a command it opens the window.
+#[derive(Debug, Parser)]
+#[command(name = "touchline", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// The folder with strategies, pitches, robots and matches.
+    #[arg(long, global = true, value_name = "FOLDER")]
+    assets: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Open the window and play; without a display, play headless.
+    Play(play::Play),
+    /// Play a match headless, as fast as it goes, and print the result.
+    Run(run::Run),
+    /// Read asset files and say what is wrong with them.
+    Check(check::Check),
+}
+
+/// What a person may change of a match; the same for `play` and `run`.
+#[derive(Args, Clone, Debug, Default)]
+struct MatchOptions {
+    /// The match: a name among the assets or a path.
+    #[arg(long = "match", value_name = "MATCH")]
+    file: Option<String>,
+    /// The home team's strategy: a name among the assets or a path.
+    #[arg(long, value_name = "STRATEGY")]
+    home: Option<String>,
+    /// The away team's strategy.
+    #[arg(long, value_name = "STRATEGY")]
+    away: Option<String>,
+    /// Equal seeds give equal matches.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Minutes of a half.
+    #[arg(long, value_name = "MINUTES")]
+    minutes: Option<f32>,
+}
+
+impl MatchOptions {
+    fn choice(&self, pilot: Option<RobotId>) -> Choice {
+        Choice {
+            file: self.file.clone(),
+            home: self.home.clone(),
+            away: self.away.clone(),
+            half_minutes: self.minutes,
+            seed: self.seed,
+            pilot,
+        }
+    }
+
+    fn plan(&self, assets: &AssetFolder, pilot: Option<RobotId>) -> Result<MatchPlan, DataError> {
+        MatchPlan::read(assets, &self.choice(pilot))
+    }
+}
+
+/// Bad input.
+const BAD_INPUT: u8 = 2;
+
+/// Runs the program with the arguments of this process.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let done = AssetFolder::find(cli.assets.as_deref()).and_then(|assets| match cli.command {
+        None => play::Play::default().run(&assets),
+        Some(Command::Play(play)) => play.run(&assets),
+        Some(Command::Run(run)) => run.run(&assets),
+        Some(Command::Check(check)) => check.run(&assets),
+    });
+    done.unwrap_or_else(|error| {
+        eprintln!("{error}");
+        ExitCode::from(BAD_INPUT)
+    })
+}

@@ -1,0 +1,118 @@
+//! `touchline run`: a match without a window, as fast as it goes.
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::MatchOptions;
+use crate::data::{AssetFolder, DataError};
+use crate::game::{Match, MatchPlan};
+use crate::ids::Team;
+use crate::referee::RuleBook;
+
+#[derive(Args, Debug, Default)]
+pub(super) struct Run {
+    #[command(flatten)]
+    options: MatchOptions,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The result of a match, home first where there are two figures.
+#[derive(Debug, Serialize)]
+struct Report {
+    name: String,
+    teams: [String; 2],
+    seed: u64,
+    score: [u32; 2],
+    /// Shares of the time in which either team had the ball.
+    possession: [f64; 2],
+    /// Share of play with two or more team mates within a metre of the ball.
+    crowding: [f64; 2],
+    /// Metres, all robots of a team together.
+    driven: [f64; 2],
+    /// Simulated seconds.
+    seconds: f64,
+    ticks: u64,
+    /// Depends on the machine.
+    ticks_per_second: f64,
+    /// Equal digests mean equal matches.
+    digest: String,
+}
+
+impl Run {
+    pub(super) fn run(&self, assets: &AssetFolder) -> Result<ExitCode, DataError> {
+        let plan = self.options.plan(assets, None)?;
+        play_headless(&plan, self.json);
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Plays a match to its end and prints the result.
+pub(super) fn play_headless(plan: &MatchPlan, json: bool) {
+    let bar = progress(plan);
+    let started = Instant::now();
+    let mut game = Match::new(plan);
+    while !game.is_over() {
+        game.tick();
+        if game.clock().tick.is_multiple_of(REPORT_EVERY) {
+            let [home, away] = game.state().score;
+            bar.set_message(format!("{home}:{away}"));
+            bar.set_position(game.record().played as u64);
+        }
+    }
+    bar.finish_and_clear();
+    let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
+    if json {
+        println!("{}", serde_json::to_string_pretty(&report).unwrap_or_else(|error| error.to_string()));
+    } else {
+        report.print();
+    }
+}
+
+/// Ticks between two updates of the progress bar.
+const REPORT_EVERY: u64 = 600;
+
+/// A bar in simulated seconds; shown on a terminal only.
+fn progress(plan: &MatchPlan) -> ProgressBar {
+    let seconds = plan.rules.half_seconds() * f64::from(RuleBook::HALVES);
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} s of play, {msg}, {eta} left");
+    ProgressBar::new(seconds as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+impl Report {
+    fn of(game: &Match, plan: &MatchPlan, wall_seconds: f64) -> Report {
+        let (record, clock) = (game.record(), game.clock());
+        Report {
+            name: plan.name.clone(),
+            teams: plan.teams.each_ref().map(|team| team.strategy.name.clone()),
+            seed: plan.seed,
+            score: game.state().score,
+            possession: record.possession_shares(),
+            crowding: record.crowding.map(|seconds| seconds / record.played.max(f64::EPSILON)),
+            driven: Team::BOTH.map(|team| record.driven_by(team)),
+            seconds: clock.now(),
+            ticks: clock.tick,
+            ticks_per_second: clock.tick as f64 / wall_seconds,
+            digest: format!("{:016x}", record.digest),
+        }
+    }
+
+    fn print(&self) {
+        let [home, away] = &self.teams;
+        println!("{home} {} : {} {away}", self.score[0], self.score[1]);
+        println!("possession  {:4.0} % : {:.0} %", 100.0 * self.possession[0], 100.0 * self.possession[1]);
+        println!("crowding    {:4.0} % : {:.0} %", 100.0 * self.crowding[0], 100.0 * self.crowding[1]);
+        println!("driven      {:4.0} m : {:.0} m", self.driven[0], self.driven[1]);
+        let pace = self.ticks_per_second * self.seconds / self.ticks as f64;
+        println!(
+            "{:.0} s in {} ticks, {:.0} ticks/s, {pace:.0} times real time",
+            self.seconds, self.ticks, self.ticks_per_second
+        );
+        println!("seed {}, digest {}", self.seed, self.digest);
+    }
+}

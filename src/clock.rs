@@ -1,0 +1,42 @@
+//! The time of a match, in ticks. Nothing inside a tick knows another clock.
+
+use bevy::prelude::*;
+
+/// Counts the ticks of a match.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Reflect)]
+pub struct Clock {
+    /// Ticks that are over.
+    pub tick: u64,
+    /// Length of a tick, s.
+    pub dt: f32,
+}
+
+/// Ticks a second, unless a match says otherwise.
+pub const TICK_HZ: f32 = 60.0;
+
+impl Default for Clock {
+    fn default() -> Clock {
+        Clock::new(TICK_HZ)
+    }
+}
+
+impl Clock {
+    pub fn new(hz: f32) -> Clock {
+        Clock { tick: 0, dt: 1.0 / hz }
+    }
+
+    /// Seconds since the match began.
+    pub fn now(&self) -> f64 {
+        self.tick as f64 * f64::from(self.dt)
+    }
+
+    /// The number of ticks, at least one, that is nearest to a time span in seconds.
+    pub fn ticks(&self, seconds: f32) -> u64 {
+        ((seconds / self.dt).round() as u64).max(1)
+    }
+
+    /// Whether something that happens `hz` times a second is due in this tick.
+    pub fn is_due(&self, hz: f32) -> bool {
+        self.tick.is_multiple_of(self.ticks(1.0 / hz))
+    }
+}

@@ -1,0 +1,19 @@
+//! Reading the RON files that describe strategies, pitches, robots and matches.
+//!
+//! An [`AssetFolder`] says where the files are, a [`Source`] holds the text of one and parses it, and every failure is
+//! a [`DataError`] that names the file, the line, the column and the [`Field`]. What a file may say is not checked
+//! here: the module that owns the type validates it and reports through [`Source::error_at`].
+
+mod error;
+mod field;
+mod folder;
+mod locate;
+mod scan;
+mod source;
+mod words;
+
+pub use error::{DataError, no_such};
+pub use field::{Field, Segment};
+pub use folder::AssetFolder;
+pub use locate::locate;
+pub use source::{Source, ron_options};

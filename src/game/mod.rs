@@ -1,0 +1,140 @@
+//! A match: read as a [`MatchPlan`], started in a world, played tick by tick.
+
+mod plan;
+
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::RapierRigidBodyHandle;
+
+pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
+
+use crate::ball::{Ball, BallDice, Rolling};
+use crate::clock::Clock;
+use crate::drive::RobotBodies;
+use crate::geometry::{Pose, Twist};
+use crate::ids::Team;
+use crate::physics::{open_world, register_bodies};
+use crate::pilot::Pilot;
+use crate::record::Record;
+use crate::referee::{Calls, MatchState, Phase, Whistles};
+use crate::rng::Seed;
+use crate::robot::{Entry, ball_body, spawn_robot};
+use crate::schedule::Tick;
+use crate::script::Requests;
+use crate::strategy::Strategies;
+
+/// On every entity that belongs to the match being played and goes with it.
+#[derive(Component, Clone, Copy, Debug, Default)]
+#[component(immutable)]
+pub struct MatchEntity;
+
+/// Ends the match in this world, if there is one, and starts another from the beginning.
+pub fn start_match(world: &mut World, plan: &MatchPlan) {
+    let mut old = world.query_filtered::<Entity, With<MatchEntity>>();
+    for entity in old.iter(world).collect::<Vec<_>>() {
+        world.despawn(entity);
+    }
+    let seed = Seed(plan.seed);
+    let clock = Clock::default();
+    world.insert_resource(clock);
+    world.insert_resource(seed);
+    world.insert_resource(plan.pitch.clone());
+    world.insert_resource(plan.rules.clone());
+    world.insert_resource(MatchState::new(Team::Home, &plan.rules));
+    world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
+    world.insert_resource(Whistles::default());
+    world.insert_resource(Calls::default());
+    world.insert_resource(Record::new(plan));
+    world.insert_resource(Requests::default());
+    open_world(world, &plan.pitch);
+    spawn_ball(world, plan, seed);
+    let robots: Vec<_> = plan.robots().map(|id| (id, spawn_planned(world, plan, id, seed, &clock))).collect();
+    register_bodies(world);
+    for (id, (unit, trailer)) in robots {
+        let handle = |entity: Entity| world.get::<RapierRigidBodyHandle>(entity).copied();
+        let (Some(unit_body), trailer_body) = (handle(unit), trailer.and_then(handle)) else { continue };
+        world.entity_mut(unit).insert(RobotBodies { unit: unit_body, trailer: trailer_body });
+        if plan.pilot == Some(id) {
+            world.entity_mut(unit).insert(Pilot::default());
+        }
+    }
+}
+
+fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
+    let kind = plan.ball;
+    world.spawn((
+        Name::new("ball"),
+        MatchEntity,
+        Ball { kind },
+        BallDice::new(seed),
+        Rolling::default(),
+        Pose::default(),
+        Twist::default(),
+        ball_body(kind.radius, kind.mass, kind.friction, kind.restitution),
+    ));
+}
+
+fn spawn_planned(
+    world: &mut World,
+    plan: &MatchPlan,
+    id: crate::ids::RobotId,
+    seed: Seed,
+    clock: &Clock,
+) -> (Entity, Option<Entity>) {
+    let team = plan.team(id.team);
+    let entry = Entry {
+        id,
+        role: team.strategy.players[usize::from(id.number)],
+        kind: team.kind.clone(),
+        sensing: team.sensing.clone(),
+        strategy: &team.strategy,
+        seed,
+    };
+    spawn_robot(world, &entry, clock)
+}
+
+/// A match without a window, run as fast as it can.
+pub struct Match {
+    app: App,
+}
+
+impl Match {
+    /// Starts a match in an app of its own.
+    pub fn new(plan: &MatchPlan) -> Match {
+        let mut app = App::new();
+        app.add_plugins(crate::simulation);
+        app.finish();
+        app.cleanup();
+        start_match(app.world_mut(), plan);
+        Match { app }
+    }
+
+    /// Plays one tick.
+    pub fn tick(&mut self) {
+        self.app.world_mut().run_schedule(Tick);
+    }
+
+    /// Whether the last half is over.
+    pub fn is_over(&self) -> bool {
+        self.app.world().resource::<MatchState>().phase == Phase::Finished
+    }
+
+    pub fn world(&self) -> &World {
+        self.app.world()
+    }
+
+    pub fn world_mut(&mut self) -> &mut World {
+        self.app.world_mut()
+    }
+
+    pub fn state(&self) -> &MatchState {
+        self.app.world().resource::<MatchState>()
+    }
+
+    pub fn record(&self) -> &Record {
+        self.app.world().resource::<Record>()
+    }
+
+    pub fn clock(&self) -> Clock {
+        *self.app.world().resource::<Clock>()
+    }
+}

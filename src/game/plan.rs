@@ -1,0 +1,173 @@
+//! What is played: the match file, what the command line or the menu changes of it, and the plan with every file read.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use crate::ball::BallKind;
+use crate::data::{AssetFolder, DataError, Field, Source, no_such};
+use crate::ids::{RobotId, Team};
+use crate::pitch::Pitch;
+use crate::referee::RuleBook;
+use crate::robot::RobotKind;
+use crate::sense::Sensing;
+use crate::strategy::Strategy;
+
+/// A match as it is written in `assets/matches/*.ron`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MatchFile {
+    pub name: String,
+    pub pitch: String,
+    pub ball: BallKind,
+    pub rules: RuleBook,
+    pub home: TeamFile,
+    pub away: TeamFile,
+}
+
+/// One side of a match: names of files.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TeamFile {
+    pub strategy: String,
+    pub robot: String,
+    pub sensing: String,
+}
+
+/// What a person changes of a match file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Choice {
+    /// The match file; `friendly` if not given.
+    pub file: Option<String>,
+    pub home: Option<String>,
+    pub away: Option<String>,
+    /// Minutes of a half.
+    pub half_minutes: Option<f32>,
+    pub seed: u64,
+    /// The robot that a person drives.
+    pub pilot: Option<RobotId>,
+}
+
+/// A match that can be played: every file is read and sound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MatchPlan {
+    pub name: String,
+    pub pitch: Pitch,
+    pub ball: BallKind,
+    pub rules: RuleBook,
+    /// Home first.
+    pub teams: [TeamPlan; 2],
+    pub seed: u64,
+    pub pilot: Option<RobotId>,
+}
+
+/// One side of a match.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TeamPlan {
+    /// The strategy's name among the assets, or its path.
+    pub strategy_file: String,
+    pub strategy: Arc<Strategy>,
+    pub kind: Arc<RobotKind>,
+    pub sensing: Arc<Sensing>,
+}
+
+/// The match that is played unless another is named.
+pub const DEFAULT_MATCH: &str = "friendly";
+
+impl MatchPlan {
+    /// Reads everything that a match needs.
+    ///
+    /// # Errors
+    /// The first file that is missing or wrong, with the place of the fault.
+    pub fn read(assets: &AssetFolder, choice: &Choice) -> Result<MatchPlan, DataError> {
+        let name = choice.file.as_deref().unwrap_or(DEFAULT_MATCH);
+        let source = Source::read(assets.file("matches", name))?;
+        let mut file: MatchFile = source.parse()?;
+        let ball_fault = file.ball.fault().map(|(field, message)| (format!("ball.{field}"), message));
+        let rules_fault = file.rules.fault().map(|(field, message)| (format!("rules.{field}"), message));
+        if let Some((field, message)) = ball_fault.or(rules_fault) {
+            return Err(source.error_at(&dotted(&field), message));
+        }
+        if let Some(minutes) = choice.half_minutes {
+            file.rules.half_minutes = minutes;
+            if let Some((_, message)) = file.rules.fault() {
+                return Err(DataError::new("--minutes", message));
+            }
+        }
+        let pitch = checked(&assets.file("pitches", &file.pitch), Pitch::fault)?;
+        file.home.strategy = choice.home.clone().unwrap_or(file.home.strategy);
+        file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
+        let teams = [TeamPlan::read(assets, &file.home)?, TeamPlan::read(assets, &file.away)?];
+        let plan = MatchPlan {
+            name: file.name,
+            pitch,
+            ball: file.ball,
+            rules: file.rules,
+            teams,
+            seed: choice.seed,
+            pilot: choice.pilot,
+        };
+        plan.check_pilot()?;
+        Ok(plan)
+    }
+
+    pub fn team(&self, team: Team) -> &TeamPlan {
+        &self.teams[team.index()]
+    }
+
+    /// All robots of the match, in order.
+    pub fn robots(&self) -> impl Iterator<Item = RobotId> + '_ {
+        Team::BOTH.into_iter().flat_map(|team| {
+            let players = self.team(team).strategy.players.len();
+            (0..players).map(move |number| RobotId::new(team, number as u8))
+        })
+    }
+
+    fn check_pilot(&self) -> Result<(), DataError> {
+        match self.pilot {
+            Some(pilot) if !self.robots().any(|robot| robot == pilot) => {
+                let known = self.robots().map(|robot| robot.to_string());
+                Err(DataError::new("--pilot", no_such("robot", &pilot.to_string(), known)))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl TeamPlan {
+    fn read(assets: &AssetFolder, file: &TeamFile) -> Result<TeamPlan, DataError> {
+        let path = assets.file("strategies", &file.strategy);
+        let source = Source::read(&path)?;
+        let strategy = Strategy::parse(&source)?;
+        if !strategy.robot_kinds.contains(&file.robot) {
+            let message = format!("cannot be played by a `{}`: add it here if it can", file.robot);
+            return Err(source.error_at(&Field::root().key("robot_kinds"), message));
+        }
+        Ok(TeamPlan {
+            strategy_file: file.strategy.clone(),
+            strategy: Arc::new(strategy),
+            kind: Arc::new(checked(&assets.file("robots", &file.robot), RobotKind::fault)?),
+            sensing: Arc::new(checked(&assets.file("sensing", &file.sensing), Sensing::fault)?),
+        })
+    }
+}
+
+/// Reads a file whose type checks its own numbers.
+fn checked<T: DeserializeOwned>(
+    path: &Path,
+    fault: impl Fn(&T) -> Option<(&'static str, String)>,
+) -> Result<T, DataError> {
+    let source = Source::read(path)?;
+    let value: T = source.parse()?;
+    match fault(&value) {
+        Some((field, message)) => Err(source.error_at(&dotted(field), message)),
+        None => Ok(value),
+    }
+}
+
+/// `a.b` as a field.
+fn dotted(path: &str) -> Field {
+    path.split('.').fold(Field::root(), |field, key| field.key(key))
+}

@@ -1,0 +1,104 @@
+//! Who is who: the two teams and their robots, with a total order that every loop whose order matters uses.
+
+use std::fmt;
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// One of the two teams of a match.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, Reflect)]
+pub enum Team {
+    Home,
+    Away,
+}
+
+impl Team {
+    /// Both teams, home first.
+    pub const BOTH: [Team; 2] = [Team::Home, Team::Away];
+
+    /// The other team.
+    pub fn opponent(self) -> Team {
+        match self {
+            Team::Home => Team::Away,
+            Team::Away => Team::Home,
+        }
+    }
+
+    /// 0 for home, 1 for away: the place of this team in arrays of two.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+impl fmt::Display for Team {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Team::Home => "home",
+            Team::Away => "away",
+        })
+    }
+}
+
+/// A robot's team and its number on the shirt, counted from 0 as in the Hammerheads' messages (figure 3).
+///
+/// The derived order, home before away and then by number, is the order of every loop over robots.
+#[derive(
+    Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, Reflect,
+)]
+#[component(immutable)]
+pub struct RobotId {
+    pub team: Team,
+    pub number: u8,
+}
+
+impl RobotId {
+    pub const fn new(team: Team, number: u8) -> RobotId {
+        RobotId { team, number }
+    }
+}
+
+impl fmt::Display for RobotId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", self.team, self.number)
+    }
+}
+
+/// Reads `home 2`, `home:2` or `away2`.
+impl std::str::FromStr for RobotId {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<RobotId, String> {
+        let expected = || format!("`{text}` is no robot; write a team and a number, such as `away:3`");
+        let lower = text.to_lowercase();
+        let (team, rest) = if let Some(rest) = lower.strip_prefix("home") {
+            (Team::Home, rest)
+        } else if let Some(rest) = lower.strip_prefix("away") {
+            (Team::Away, rest)
+        } else {
+            return Err(expected());
+        };
+        let number = rest.trim_start_matches([' ', ':', '-']).parse().map_err(|_| expected())?;
+        Ok(RobotId { team, number })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robots_are_ordered_home_first_then_by_number() {
+        let mut ids =
+            vec![RobotId::new(Team::Away, 0), RobotId::new(Team::Home, 3), RobotId::new(Team::Home, 1)];
+        ids.sort();
+        assert_eq!(ids.iter().map(RobotId::to_string).collect::<Vec<_>>(), ["home 1", "home 3", "away 0"]);
+    }
+
+    #[test]
+    fn a_robot_is_read_from_what_a_person_types() {
+        for text in ["away:3", "away 3", "Away3"] {
+            assert_eq!(text.parse(), Ok(RobotId::new(Team::Away, 3)));
+        }
+        assert!("guest 1".parse::<RobotId>().unwrap_err().contains("away:3"));
+    }
+}

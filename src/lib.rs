@@ -1,0 +1,55 @@
+//! Touchline plays robot soccer between teams of behaviour-based robots.
+//!
+//! One schedule, [`schedule::Tick`], is the simulation. Data flows through its stages in one direction:
+//!
+//! ```text
+//! Script -> Deliver -> Sense -> WorldModel -> Teamwork -> Behaviour -> Motor -> Drive -> Physics -> Referee -> Transmit -> Record
+//! ```
+//!
+//! Each stage is a module, whose `mod.rs` holds its components and systems; its siblings are pure logic. Robots act on beliefs
+//! only: truth is read by Sense, Referee, Record and the window. Seed, assets and requests determine a match bit for bit.
+
+#![forbid(unsafe_code)]
+
+pub mod ball;
+pub mod behaviour;
+pub mod cli;
+pub mod clock;
+pub mod data;
+pub mod drive;
+pub mod game;
+pub mod geometry;
+pub mod ids;
+pub mod motor;
+pub mod physics;
+pub mod pilot;
+pub mod pitch;
+pub mod record;
+pub mod referee;
+pub mod rng;
+pub mod robot;
+pub mod schedule;
+pub mod script;
+pub mod sense;
+pub mod strategy;
+pub mod teamwork;
+pub mod world_model;
+
+use bevy::prelude::*;
+
+/// Everything that a match needs, without a window.
+pub fn simulation(app: &mut App) {
+    app.add_plugins((
+        schedule::plugin,
+        physics::plugin,
+        script::plugin,
+        sense::plugin,
+        world_model::plugin,
+        behaviour::plugin,
+        motor::plugin,
+        drive::plugin,
+        ball::plugin,
+        referee::plugin,
+        record::plugin,
+    ));
+}

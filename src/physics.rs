@@ -1,0 +1,152 @@
+//! Rapier in the service of a [`Tick`]: walls, the step, and poses read back as truth.
+//!
+//! Bodies are spawned as bevy_rapier components and registered once, when a match starts. During a match the stages work on
+//! Rapier's own body set, so a tick costs little more than Rapier itself.
+
+use bevy::ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::*;
+use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
+use bevy_rapier2d::rapier::math::rotation_from_angle;
+
+use crate::clock::Clock;
+use crate::geometry::{Pose, Twist};
+use crate::pitch::Pitch;
+use crate::schedule::{Tick, TickSystems};
+
+pub(super) fn plugin(app: &mut App) {
+    app.insert_resource(RapierContextInitialization::NoAutomaticRapierContext)
+        .add_plugins(RapierPhysicsPlugin::<NoUserData>::default().with_default_system_setup(false))
+        .init_resource::<TimestepMode>()
+        .init_schedule(RegisterBodies)
+        .edit_schedule(RegisterBodies, |schedule| {
+            schedule.set_executor(SingleThreadedExecutor::new());
+            schedule.add_systems(RapierPhysicsPlugin::<NoUserData>::get_systems(PhysicsSet::SyncBackend));
+        })
+        .add_systems(Tick, (step, read_back).chain().in_set(TickSystems::Physics));
+    if cfg!(debug_assertions) {
+        app.add_systems(Tick, assert_finite.in_set(TickSystems::Physics).after(read_back));
+    }
+}
+
+/// Run once after the bodies of a match were spawned: makes them known to Rapier.
+#[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
+struct RegisterBodies;
+
+/// Solver iterations of a step. Two keep the hitch within 0.1 mm, since our wheel model solves it as well.
+const SOLVER_ITERATIONS: usize = 2;
+
+/// Rapier's bodies, for the stages that push them.
+#[derive(SystemParam)]
+pub struct Bodies<'w, 's> {
+    set: Single<'w, 's, &'static mut RapierRigidBodySet>,
+}
+
+impl Bodies<'_, '_> {
+    pub fn get(&self, handle: &RapierRigidBodyHandle) -> Option<&Body> {
+        self.set.bodies.get(handle.0)
+    }
+
+    pub fn get_mut(&mut self, handle: &RapierRigidBodyHandle) -> Option<&mut Body> {
+        self.set.bodies.get_mut(handle.0)
+    }
+
+    /// Puts a body somewhere, at rest.
+    pub fn place(&mut self, handle: &RapierRigidBodyHandle, pose: Pose) {
+        if let Some(body) = self.get_mut(handle) {
+            body.set_translation(pose.position, true);
+            body.set_rotation(rotation_from_angle(pose.heading), true);
+            body.set_linvel(Vec2::ZERO, true);
+            body.set_angvel(0.0, true);
+        }
+    }
+}
+
+/// Opens an empty physical world with the walls of a pitch; whatever was there before is gone.
+pub fn open_world(world: &mut World, pitch: &Pitch) {
+    let mut contexts = world.query_filtered::<Entity, With<RapierContextSimulation>>();
+    for context in contexts.iter(world).collect::<Vec<_>>() {
+        world.despawn(context);
+    }
+    let mut simulation = RapierContextSimulation::default();
+    simulation.integration_parameters.num_solver_iterations = SOLVER_ITERATIONS;
+    world.spawn((Name::new("physics"), DefaultRapierContext, simulation));
+    for (at, half) in wall_boxes(pitch) {
+        world.spawn((
+            Name::new("wall"),
+            crate::game::MatchEntity,
+            Transform::from_translation(at.extend(0.0)),
+            Collider::cuboid(half.x, half.y),
+            Friction { coefficient: pitch.walls.friction, combine_rule: CoefficientCombineRule::Min },
+            Restitution { coefficient: pitch.walls.restitution, combine_rule: CoefficientCombineRule::Max },
+        ));
+    }
+}
+
+/// Makes freshly spawned bodies known to Rapier.
+pub fn register_bodies(world: &mut World) {
+    world.run_schedule(RegisterBodies);
+    world.flush();
+}
+
+/// Centre and half extents of each wall: two sides, four beside the goals, and three around each goal, in metres.
+pub fn wall_boxes(pitch: &Pitch) -> Vec<(Vec2, Vec2)> {
+    let half = pitch.half_size();
+    let thick = pitch.walls.thickness / 2.0;
+    let post = pitch.goal.width / 2.0;
+    let back = half.x + pitch.goal.depth;
+    let mut boxes = Vec::new();
+    for side in [1.0, -1.0] {
+        boxes.push((Vec2::new(0.0, side * (half.y + thick)), Vec2::new(back + 2.0 * thick, thick)));
+        boxes.push((Vec2::new(side * (back + thick), 0.0), Vec2::new(thick, half.y)));
+        for end in [1.0, -1.0] {
+            let beside = Vec2::new(side * (half.x + back) / 2.0, end * (post + half.y) / 2.0);
+            boxes.push((beside, Vec2::new((back - half.x) / 2.0, (half.y - post) / 2.0)));
+        }
+    }
+    boxes
+}
+
+fn step(
+    clock: Res<Clock>,
+    world: Single<(
+        &mut RapierContextSimulation,
+        &mut RapierContextColliders,
+        &mut RapierContextJoints,
+        &mut RapierRigidBodySet,
+    )>,
+) {
+    let (mut simulation, mut colliders, mut joints, mut bodies) = world.into_inner();
+    let simulation = &mut *simulation;
+    let joints = &mut *joints;
+    simulation.integration_parameters.dt = clock.dt;
+    simulation.pipeline.step(
+        Vec2::ZERO,
+        &simulation.integration_parameters,
+        &mut simulation.islands,
+        &mut simulation.broad_phase,
+        &mut simulation.narrow_phase,
+        &mut bodies.bodies,
+        &mut colliders.colliders,
+        &mut joints.impulse_joints,
+        &mut joints.multibody_joints,
+        &mut simulation.ccd_solver,
+        &(),
+        &(),
+    );
+}
+
+fn read_back(bodies: Bodies, mut truth: Query<(&RapierRigidBodyHandle, &mut Pose, &mut Twist)>) {
+    for (handle, mut pose, mut twist) in &mut truth {
+        let Some(body) = bodies.get(handle) else { continue };
+        *pose = Pose { position: body.translation(), heading: body.rotation().angle() };
+        *twist = Twist { linear: body.linvel(), angular: body.angvel() };
+    }
+}
+
+fn assert_finite(truth: Query<(NameOrEntity, &Pose, &Twist)>) {
+    for (name, pose, twist) in &truth {
+        assert!(pose.is_finite() && twist.is_finite(), "{name} is nowhere: {pose:?}, {twist:?}");
+    }
+}

@@ -1,0 +1,119 @@
+//! The pitch as data: sizes, goals, penalty areas and penalty spots. Walls become colliders in [`crate::physics`].
+//!
+//! Everything is in metres in the pitch frame. A pitch is symmetric, so one goal and one penalty area describe both.
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Zone;
+
+/// A pitch, read from `assets/pitches/*.ron`.
+#[derive(Resource, Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pitch {
+    pub name: String,
+    /// Inner length between the goal lines, along x.
+    pub length: f32,
+    /// Inner width between the side walls, along y.
+    pub width: f32,
+    pub goal: Goal,
+    pub penalty_area: PenaltyArea,
+    pub centre_circle_radius: f32,
+    /// Where the referee puts a ball that makes no progress, in reading order from west to east.
+    pub penalty_spots: Vec<Vec2>,
+    pub walls: Walls,
+}
+
+/// A goal mouth on the goal line, centred on y = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Goal {
+    pub width: f32,
+    pub depth: f32,
+}
+
+/// A penalty area in front of the goal line, centred on y = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PenaltyArea {
+    /// Along x, from the goal line.
+    pub depth: f32,
+    /// Along y.
+    pub width: f32,
+}
+
+/// The walls around the pitch and behind the goals.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Walls {
+    pub thickness: f32,
+    pub friction: f32,
+    /// Share of the normal speed that is kept, 0 to 1.
+    pub restitution: f32,
+}
+
+impl Pitch {
+    /// Half the length and half the width.
+    pub fn half_size(&self) -> Vec2 {
+        Vec2::new(self.length / 2.0, self.width / 2.0)
+    }
+
+    /// The centre of the eastern goal mouth; the western one is its mirror image.
+    pub fn goal_centre(&self) -> Vec2 {
+        Vec2::new(self.length / 2.0, 0.0)
+    }
+
+    /// The western penalty area, which is a team's own in its team frame.
+    pub fn own_penalty_area(&self) -> Zone {
+        let (x, y) = (self.length / 2.0, self.penalty_area.width / 2.0);
+        Zone { min: Vec2::new(-x, -y), max: Vec2::new(-x + self.penalty_area.depth, y) }
+    }
+
+    /// Whether a point is on the field or inside a goal, with some room beyond the lines in metres.
+    pub fn holds(&self, point: Vec2, room: f32) -> bool {
+        let half = self.half_size() + room;
+        let inside = point.abs().cmple(half).all();
+        let in_goal =
+            point.x.abs() <= half.x + self.goal.depth && point.y.abs() <= self.goal.width / 2.0 + room;
+        inside || in_goal
+    }
+
+    /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound pitch.
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        let positive = [
+            ("length", self.length),
+            ("width", self.width),
+            ("goal.width", self.goal.width),
+            ("goal.depth", self.goal.depth),
+            ("penalty_area.depth", self.penalty_area.depth),
+            ("penalty_area.width", self.penalty_area.width),
+            ("centre_circle_radius", self.centre_circle_radius),
+            ("walls.thickness", self.walls.thickness),
+        ];
+        for (field, value) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Some((field, format!("must be a positive number of metres, not {value}")));
+            }
+        }
+        if self.goal.width >= self.width {
+            return Some((
+                "goal.width",
+                format!("{} m does not fit into a width of {} m", self.goal.width, self.width),
+            ));
+        }
+        if !(0.0..=1.0).contains(&self.walls.restitution) {
+            return Some((
+                "walls.restitution",
+                format!("must lie between 0 and 1, not {}", self.walls.restitution),
+            ));
+        }
+        if !(self.walls.friction.is_finite() && self.walls.friction >= 0.0) {
+            return Some(("walls.friction", format!("must not be negative, but is {}", self.walls.friction)));
+        }
+        if self.penalty_spots.is_empty() {
+            return Some(("penalty_spots", "needs at least one spot".into()));
+        }
+        let outside = self.penalty_spots.iter().find(|spot| !spot.abs().cmplt(self.half_size()).all());
+        outside.map(|spot| ("penalty_spots", format!("({}, {}) is outside the pitch", spot.x, spot.y)))
+    }
+}

@@ -1,0 +1,145 @@
+//! The Record stage: the digest of all that happens, and figures about a match. Reads everything, changes nothing else; the
+//! clock moves on at its end.
+
+use bevy::prelude::*;
+use serde::Serialize;
+use xxhash_rust::xxh3::xxh3_64_with_seed;
+
+use crate::ball::Ball;
+use crate::behaviour::Activity;
+use crate::clock::Clock;
+use crate::game::MatchPlan;
+use crate::geometry::{Pose, Twist};
+use crate::ids::{RobotId, Team};
+use crate::referee::{MatchState, OffPitch, Phase};
+use crate::robot::Trailer;
+use crate::schedule::{Tick, TickSystems};
+use crate::teamwork::Role;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(Tick, (digest, measure, move_clock).chain().in_set(TickSystems::Record));
+}
+
+/// Figures about the match so far.
+#[derive(Resource, Clone, Debug, PartialEq, Serialize)]
+pub struct Record {
+    /// Equal digests mean equal matches: all poses, roles, activities and the score at all ticks.
+    pub digest: u64,
+    /// Seconds of play in which each team was the last one near the ball, home first.
+    pub possession: [f64; 2],
+    /// Mean x of the ball in the pitch frame would be this divided by the playing time, m·s.
+    ball_x: f64,
+    /// Seconds with two or more robots of a team within [`CROWD`] of the ball, home first.
+    pub crowding: [f64; 2],
+    /// Seconds of play.
+    pub played: f64,
+    /// Metres driven by each robot, by robot in order.
+    pub driven: Vec<(RobotId, f64)>,
+    #[serde(skip)]
+    last_near: Option<Team>,
+}
+
+/// A robot nearer to the ball than this has it, m.
+const POSSESSION: f32 = 0.5;
+/// Two team mates nearer to the ball than this crowd it, m.
+pub const CROWD: f32 = 1.0;
+
+impl Record {
+    pub fn new(plan: &MatchPlan) -> Record {
+        Record {
+            digest: xxh3_64_with_seed(plan.name.as_bytes(), plan.seed),
+            possession: [0.0; 2],
+            ball_x: 0.0,
+            crowding: [0.0; 2],
+            played: 0.0,
+            driven: plan.robots().map(|robot| (robot, 0.0)).collect(),
+            last_near: None,
+        }
+    }
+
+    /// Each team's share of the time in which either had the ball, home first; a half each if nobody ever had it.
+    pub fn possession_shares(&self) -> [f64; 2] {
+        shares(self.possession)
+    }
+
+    /// Metres that a team's robots have driven together.
+    pub fn driven_by(&self, team: Team) -> f64 {
+        self.driven.iter().filter(|(robot, _)| robot.team == team).map(|(_, way)| way).sum()
+    }
+}
+
+fn shares([home, away]: [f64; 2]) -> [f64; 2] {
+    let total = home + away;
+    if total > 0.0 { [home / total, away / total] } else { [0.5, 0.5] }
+}
+
+type Bodies<'a> =
+    (&'a Pose, Option<&'a RobotId>, Option<&'a Trailer>, Option<&'a Role>, Option<&'a Activity>);
+
+/// Folds the state of the world into the digest, in the order of robots, trailers and ball.
+fn digest(mut record: ResMut<Record>, state: Res<MatchState>, bodies: Query<Bodies>) {
+    let mut sorted: smallvec::SmallVec<[(u32, [u32; 5]); 24]> = bodies
+        .iter()
+        .map(|(pose, robot, trailer, role, activity)| {
+            let key = |id: &RobotId| (id.team.index() as u32) << 8 | u32::from(id.number);
+            let order = match (robot, trailer) {
+                (Some(id), _) => key(id),
+                (None, Some(trailer)) => 1 << 16 | key(&trailer.of),
+                (None, None) => 1 << 17,
+            };
+            let place = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
+            let role = role.map_or(0, |role| role.0 as u32);
+            let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
+            (order, [place[0], place[1], place[2], role, activity])
+        })
+        .collect();
+    sorted.sort_unstable_by_key(|(order, _)| *order);
+    let mut bytes: smallvec::SmallVec<[u8; 512]> = smallvec::SmallVec::new();
+    for (_, words) in &sorted {
+        words.iter().for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
+    }
+    bytes.extend_from_slice(&state.score[0].to_le_bytes());
+    bytes.extend_from_slice(&state.score[1].to_le_bytes());
+    bytes.push(state.phase as u8);
+    record.digest = xxh3_64_with_seed(&bytes, record.digest);
+}
+
+fn measure(
+    clock: Res<Clock>,
+    state: Res<MatchState>,
+    mut record: ResMut<Record>,
+    ball: Single<&Pose, With<Ball>>,
+    robots: Query<(&RobotId, &Pose, &Twist), Without<OffPitch>>,
+) {
+    if state.phase != Phase::Playing {
+        return;
+    }
+    let dt = f64::from(clock.dt);
+    record.played += dt;
+    record.ball_x += f64::from(ball.position.x) * dt;
+    let mut near = [0; 2];
+    let mut nearest: Option<(f32, RobotId)> = None;
+    for (&id, pose, twist) in &robots {
+        let distance = pose.position.distance(ball.position);
+        near[id.team.index()] += usize::from(distance < CROWD);
+        if distance < POSSESSION && nearest.is_none_or(|best| (distance, id) < best) {
+            nearest = Some((distance, id));
+        }
+        if let Ok(index) = record.driven.binary_search_by_key(&id, |(robot, _)| *robot) {
+            record.driven[index].1 += f64::from(twist.linear.length()) * dt;
+        }
+    }
+    record.last_near = nearest.map(|(_, id)| id.team).or(record.last_near);
+    if let Some(team) = record.last_near {
+        record.possession[team.index()] += dt;
+    }
+    for team in Team::BOTH {
+        if near[team.index()] >= 2 {
+            record.crowding[team.index()] += dt;
+        }
+    }
+}
+
+fn move_clock(mut clock: ResMut<Clock>) {
+    clock.tick += 1;
+}

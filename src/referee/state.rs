@@ -1,0 +1,170 @@
+//! Where a match stands: phase, score, clock, ends and who is off the field.
+//!
+//! Only [`super::rules`] change a [`MatchState`]; everyone else reads it. The clock stops outside [`Phase::Playing`], so a
+//! half has its full playing time. (In 2001 it ran on; stopping it makes matches with many goals comparable.)
+
+use std::fmt;
+
+use bevy::prelude::{Resource, Vec2};
+
+use super::rulebook::RuleBook;
+use crate::geometry::Attacking;
+use crate::ids::{RobotId, Team};
+
+/// The phases of a match in their order, named as in the league's game controller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Phase {
+    /// A kick-off is owed. It never outlasts the call that owes it, so it is seen only before the first one.
+    Initial,
+    /// The robots have been put on their kick-off positions.
+    Ready,
+    /// All stand still.
+    Set,
+    /// The ball is in play and the clock runs.
+    Playing,
+    /// Over for good.
+    Finished,
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Phase::Initial => "initial",
+            Phase::Ready => "ready",
+            Phase::Set => "set",
+            Phase::Playing => "playing",
+            Phase::Finished => "finished",
+        })
+    }
+}
+
+/// A robot that is off the field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Removal {
+    pub robot: RobotId,
+    /// Seconds of playing time until it may return. At 0 it waits for play to go on and for a free place.
+    pub seconds_left: f64,
+}
+
+/// The state of a match between two looks of the referee.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct MatchState {
+    pub phase: Phase,
+    /// 1 or 2.
+    pub half: u8,
+    /// Goals, by [`Team::index`].
+    pub score: [u32; 2],
+    /// Seconds of playing time left in this half.
+    pub time_left: f64,
+    /// Who kicks off next, or kicked off last while the ball is in play.
+    pub kick_off: Team,
+    /// Where home attacks; turned at half time.
+    pub home_attacks: Attacking,
+    /// The robots off the field, sorted by id.
+    pub removed: Vec<Removal>,
+
+    /// Who kicked off the first half.
+    pub(super) opened: Team,
+    /// Seconds spent in `Ready` or `Set`.
+    pub(super) waited: f64,
+    /// Seconds of the present sample during which the ball was in play.
+    pub(super) played: f64,
+    /// Where the ball was at the last sample, or where the referee then put it.
+    pub(super) seen_ball: Option<Vec2>,
+    /// The clock of the ball's progress; none before the ball is in play.
+    pub(super) anchor: Option<Anchor>,
+    /// The robots in their own penalty areas, sorted by id.
+    pub(super) defenders: Vec<Defender>,
+}
+
+/// Where the ball was when the clock of its progress started, and the seconds since.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Anchor {
+    pub at: Vec2,
+    pub seconds: f64,
+}
+
+/// A robot in its own penalty area and the seconds that it has been there without a break.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Defender {
+    pub robot: RobotId,
+    pub inside: f64,
+}
+
+impl MatchState {
+    /// A match that has not begun: no goals, home attacks east.
+    pub fn new(kick_off: Team, book: &RuleBook) -> MatchState {
+        MatchState {
+            phase: Phase::Initial,
+            half: 1,
+            score: [0, 0],
+            time_left: book.half_seconds(),
+            kick_off,
+            home_attacks: Attacking::East,
+            removed: Vec::new(),
+            opened: kick_off,
+            waited: 0.0,
+            played: 0.0,
+            seen_ball: None,
+            anchor: None,
+            defenders: Vec::new(),
+        }
+    }
+
+    /// Which way a team plays in this half.
+    pub fn attacking(&self, team: Team) -> Attacking {
+        match team {
+            Team::Home => self.home_attacks,
+            Team::Away => self.home_attacks.reversed(),
+        }
+    }
+
+    /// The goals of a team.
+    pub fn score_of(&self, team: Team) -> u32 {
+        self.score[team.index()]
+    }
+
+    /// Whether a robot is off the field.
+    pub fn is_removed(&self, robot: RobotId) -> bool {
+        self.removed.binary_search_by_key(&robot, |removal| removal.robot).is_ok()
+    }
+
+    /// Takes a robot off the field for some seconds of playing time; one that is off already stays as it is.
+    pub(super) fn remove(&mut self, robot: RobotId, seconds_left: f64) {
+        if let Err(place) = self.removed.binary_search_by_key(&robot, |removal| removal.robot) {
+            self.removed.insert(place, Removal { robot, seconds_left });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_are_ordered_as_a_match_passes_through_them() {
+        let order = [Phase::Initial, Phase::Ready, Phase::Set, Phase::Playing, Phase::Finished];
+        assert!(order.is_sorted());
+    }
+
+    #[test]
+    fn the_teams_attack_opposite_goals() {
+        let mut state = MatchState::new(Team::Away, &RuleBook::default());
+        assert_eq!(state.attacking(Team::Home), Attacking::East);
+        assert_eq!(state.attacking(Team::Away), Attacking::West);
+        state.home_attacks = Attacking::West;
+        assert_eq!(state.attacking(Team::Away), Attacking::East);
+    }
+
+    #[test]
+    fn a_removed_robot_is_found_and_removed_only_once() {
+        let mut state = MatchState::new(Team::Home, &RuleBook::default());
+        let (first, second) = (RobotId::new(Team::Home, 2), RobotId::new(Team::Away, 1));
+        state.remove(second, 30.0);
+        state.remove(first, 20.0);
+        state.remove(first, 30.0);
+        assert_eq!(state.removed.iter().map(|r| r.robot).collect::<Vec<_>>(), [first, second]);
+        assert!(state.is_removed(first) && !state.is_removed(RobotId::new(Team::Home, 1)));
+        assert_eq!(state.removed[0].seconds_left, 20.0);
+    }
+}

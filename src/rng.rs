@@ -1,0 +1,80 @@
+//! Seeded dice. Every purpose and robot has a stream of its own, so that switching one mechanism on or off does not
+//! shift the dice of another.
+
+use bevy::prelude::*;
+use rand::SeedableRng;
+use rand_distr::{Distribution, StandardNormal, StandardUniform};
+use rand_pcg::Pcg64Mcg;
+use xxhash_rust::xxh3::xxh3_64_with_seed;
+
+use crate::ids::RobotId;
+
+/// The seed of a match: with the assets and the recorded inputs, all that chance depends on.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+pub struct Seed(pub u64);
+
+/// A stream of random numbers: PCG (MCG 128/64), named by its purpose and its robot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dice(Pcg64Mcg);
+
+impl Dice {
+    /// The stream for a purpose, and for one robot where each robot has its own.
+    pub fn new(seed: Seed, purpose: &str, robot: Option<RobotId>) -> Dice {
+        let owner = robot.map_or(u64::MAX, |id| (id.team.index() as u64) << 8 | u64::from(id.number));
+        let hashed =
+            xxh3_64_with_seed(purpose.as_bytes(), seed.0 ^ owner.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        Dice(Pcg64Mcg::seed_from_u64(hashed))
+    }
+
+    /// Uniform in [0, 1).
+    pub fn uniform(&mut self) -> f32 {
+        StandardUniform.sample(&mut self.0)
+    }
+
+    /// Normal with mean 0 and the given standard deviation.
+    pub fn normal(&mut self, deviation: f32) -> f32 {
+        let z: f32 = StandardNormal.sample(&mut self.0);
+        z * deviation
+    }
+
+    /// True with this probability: never at 0, always at 1.
+    pub fn chance(&mut self, probability: f32) -> bool {
+        self.uniform() < probability
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Team;
+
+    fn first(seed: u64, purpose: &str, robot: Option<RobotId>) -> f32 {
+        Dice::new(Seed(seed), purpose, robot).uniform()
+    }
+
+    #[test]
+    fn streams_differ_by_seed_purpose_and_robot_and_repeat() {
+        let robot = Some(RobotId::new(Team::Home, 1));
+        let base = first(1, "camera", robot);
+        assert_eq!(base, first(1, "camera", robot));
+        assert_ne!(base, first(2, "camera", robot));
+        assert_ne!(base, first(1, "odometry", robot));
+        assert_ne!(base, first(1, "camera", Some(RobotId::new(Team::Away, 1))));
+        assert_ne!(base, first(1, "camera", None));
+    }
+
+    #[test]
+    fn chance_zero_never_happens_and_chance_one_always_does() {
+        let mut dice = Dice::new(Seed(7), "test", None);
+        assert!((0..10_000).all(|_| !dice.chance(0.0)));
+        assert!((0..10_000).all(|_| dice.chance(1.0)));
+    }
+
+    #[test]
+    fn normal_has_the_asked_deviation() {
+        let mut dice = Dice::new(Seed(7), "test", None);
+        let n = 20_000;
+        let variance = (0..n).map(|_| dice.normal(0.3).powi(2)).sum::<f32>() / n as f32;
+        assert!((variance.sqrt() - 0.3).abs() < 0.01, "{}", variance.sqrt());
+    }
+}

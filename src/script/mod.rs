@@ -1,0 +1,112 @@
+//! The Script stage: what comes from outside a match. Requests wait in [`Requests`] and take effect at the next tick, in the
+//! order in which they were made.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use crate::behaviour::{Activity, Memory};
+use crate::clock::Clock;
+use crate::ids::{RobotId, Team};
+use crate::pilot::Pilot;
+use crate::schedule::{Tick, TickSystems};
+use crate::strategy::{Strategies, Strategy};
+use crate::teamwork::Role;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Requests>().add_systems(Tick, carry_out_requests.in_set(TickSystems::Script));
+}
+
+/// What people ask of a running match.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// A person takes the robot over.
+    TakeOver(RobotId),
+    /// The robot's strategy takes it back.
+    HandBack(RobotId),
+    /// What the person does to the robot; see [`Pilot`].
+    Steer { robot: RobotId, pilot: Pilot },
+    /// The weight of a term of an assemblage, both by index.
+    SetWeight { team: Team, assemblage: usize, term: usize, weight: f32 },
+    /// The team plays on with another strategy, or with a changed one.
+    ChangeStrategy { team: Team, strategy: Arc<Strategy> },
+}
+
+/// Requests that wait for the next tick.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Requests(Vec<Request>);
+
+impl Requests {
+    pub fn ask(&mut self, request: Request) {
+        self.0.push(request);
+    }
+
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+}
+
+type Scripted<'a> = (Entity, &'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory);
+
+fn carry_out_requests(
+    clock: Res<Clock>,
+    mut requests: ResMut<Requests>,
+    mut strategies: ResMut<Strategies>,
+    mut commands: Commands,
+    mut robots: Query<Scripted>,
+) {
+    if requests.0.is_empty() {
+        return;
+    }
+    let entity_of = |wanted: RobotId, robots: &Query<Scripted>| {
+        robots.iter().find(|(_, id, ..)| **id == wanted).map(|(entity, ..)| entity)
+    };
+    for request in std::mem::take(&mut requests.0) {
+        match request {
+            Request::TakeOver(robot) => {
+                if let Some(entity) = entity_of(robot, &robots) {
+                    commands.entity(entity).insert(Pilot::default());
+                }
+            }
+            Request::HandBack(robot) => {
+                if let Some(entity) = entity_of(robot, &robots) {
+                    commands.entity(entity).remove::<Pilot>();
+                }
+            }
+            Request::Steer { robot, pilot } => {
+                if let Some(entity) = entity_of(robot, &robots) {
+                    commands.entity(entity).insert(pilot.limited());
+                }
+            }
+            Request::SetWeight { team, assemblage, term, weight } => {
+                let strategy = Arc::make_mut(&mut strategies.0[team.index()]);
+                let term =
+                    strategy.assemblages.get_mut(assemblage).and_then(|found| found.terms.get_mut(term));
+                if let Some(term) = term.filter(|_| weight.is_finite()) {
+                    term.weight = weight;
+                }
+            }
+            Request::ChangeStrategy { team, strategy } => {
+                change_strategy(team, strategy, &clock, &mut strategies, &mut robots);
+            }
+        }
+    }
+}
+
+fn change_strategy(
+    team: Team,
+    new: Arc<Strategy>,
+    clock: &Clock,
+    strategies: &mut Strategies,
+    robots: &mut Query<Scripted>,
+) {
+    let old = std::mem::replace(&mut strategies.0[team.index()], new.clone());
+    for (_, id, mut role, mut activity, mut memory) in robots.iter_mut().filter(|(_, id, ..)| id.team == team)
+    {
+        let at_kick_off = new.players.get(usize::from(id.number)).copied().unwrap_or(new.players[0]);
+        let name = &old.roles[role.0].name;
+        role.0 = new.roles.iter().position(|spec| spec.name == *name).unwrap_or(at_kick_off);
+        *activity = activity.carried_over(&old, &new, role.0, clock.tick);
+        *memory = Memory::new(new.slots);
+    }
+}

@@ -1,0 +1,251 @@
+//! The Sense stage: truth becomes what a robot can know of it. Everything after this stage works on percepts and beliefs.
+//!
+//! A camera takes frames at its own rate, each arrives after its latency. The wheels report at every tick.
+
+mod camera;
+mod localisation;
+mod preset;
+
+use std::collections::VecDeque;
+use std::f32::consts::PI;
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+pub use camera::range_deviation;
+use camera::{Blob, look};
+pub use localisation::reckon;
+use localisation::{PoseError, odometry_error};
+pub use preset::{Camera, Eyes, MemorySpans, Sensing};
+
+use crate::ball::Ball;
+use crate::clock::Clock;
+use crate::drive::WheelCommand;
+use crate::geometry::{Pose, Sighting, Twist, wrap_angle};
+use crate::ids::{RobotId, Team};
+use crate::referee::{MatchState, OffPitch};
+use crate::rng::{Dice, Seed};
+use crate::robot::{Robot, Trailer};
+use crate::schedule::{Tick, TickSystems};
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(Tick, (take_frames, deliver_frames, read_odometry).chain().in_set(TickSystems::Sense));
+}
+
+/// What a robot's sensors say: the newest camera frame that has arrived.
+#[derive(Component, Clone, Debug, Default)]
+pub struct Percepts {
+    pub frame: Option<Frame>,
+}
+
+/// One camera frame, worked out: egocentric sightings, and where the robot was by its own localisation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// The tick in which the shutter opened.
+    pub taken: u64,
+    pub ball: Option<Sighting>,
+    /// Markers tell the team, not the number.
+    pub robots: Vec<(Team, Sighting)>,
+    /// The localised pose, in the team frame.
+    pub fix: Pose,
+}
+
+/// A robot's eyes, with the errors and the frames that are under way inside them.
+#[derive(Component, Clone, Debug)]
+pub struct Eyesight {
+    pub sensing: Arc<Sensing>,
+    error: PoseError,
+    under_way: VecDeque<Frame>,
+    camera_dice: Dice,
+    localisation_dice: Dice,
+}
+
+impl Eyesight {
+    pub fn new(sensing: Arc<Sensing>, seed: Seed, robot: RobotId) -> Eyesight {
+        let mut localisation_dice = Dice::new(seed, "localisation", Some(robot));
+        let error = match &sensing.eyes {
+            Eyes::Perfect => PoseError::default(),
+            Eyes::Real { localisation, .. } => PoseError::drawn(localisation, &mut localisation_dice),
+        };
+        Eyesight {
+            sensing,
+            error,
+            under_way: VecDeque::new(),
+            camera_dice: Dice::new(seed, "camera", Some(robot)),
+            localisation_dice,
+        }
+    }
+
+    /// Forgets the frames under way, as when people carry the robot elsewhere.
+    pub fn blink(&mut self) {
+        self.under_way.clear();
+    }
+}
+
+/// What the wheels report: a dead-reckoned pose in a frame of its own, and whether they turn in vain.
+#[derive(Component, Clone, Debug)]
+pub struct Odometry {
+    pub pose: Pose,
+    /// Speed ahead in m/s.
+    pub speed: f32,
+    /// rad/s
+    pub turn_rate: f32,
+    /// How long the wheels have been told to turn without moving the robot, s.
+    pub stalled_for: f32,
+    /// Distance since the last error was drawn, m.
+    unjudged: f32,
+    dice: Dice,
+}
+
+impl Odometry {
+    pub fn new(seed: Seed, robot: RobotId) -> Odometry {
+        Odometry {
+            pose: Pose::default(),
+            speed: 0.0,
+            turn_rate: 0.0,
+            stalled_for: 0.0,
+            unjudged: 0.0,
+            dice: Dice::new(seed, "odometry", Some(robot)),
+        }
+    }
+}
+
+/// Everything solid that a camera may see.
+struct Scene {
+    ball: Vec2,
+    ball_radius: f32,
+    /// Drive units, with their markers.
+    robots: Vec<(RobotId, Vec2, f32)>,
+    /// Trailers only hide other things.
+    trailers: Vec<(RobotId, Vec2, f32)>,
+}
+
+type Bodies<'w, 's> = Query<'w, 's, (&'static RobotId, &'static Robot, &'static Pose), Without<OffPitch>>;
+
+fn take_frames(
+    clock: Res<Clock>,
+    state: Res<MatchState>,
+    ball: Single<(&Ball, &Pose)>,
+    bodies: Bodies,
+    trailers: Query<(&Trailer, &Pose)>,
+    mut eyes: Query<(&RobotId, &Robot, &Pose, &mut Eyesight), Without<OffPitch>>,
+) {
+    let mut scene = None;
+    for (&id, robot, &pose, mut eyesight) in &mut eyes {
+        let eyesight = &mut *eyesight;
+        let team_pose = state.attacking(id.team).turn_pose(pose);
+        match &eyesight.sensing.eyes {
+            Eyes::Perfect if robot.decides(&clock) => {
+                let scene = scene.get_or_insert_with(|| Scene::of(*ball, &bodies, &trailers));
+                eyesight.under_way.push_back(scene.seen_perfectly(id, pose, team_pose, clock.tick));
+            }
+            Eyes::Real { camera, localisation, .. } if clock.is_due(camera.frame_hz) => {
+                let dt = 1.0 / camera.frame_hz;
+                eyesight.error = eyesight.error.drift(localisation, dt, &mut eyesight.localisation_dice);
+                let scene = scene.get_or_insert_with(|| Scene::of(*ball, &bodies, &trailers));
+                let mut frame = scene.seen_through(camera, id, pose, &mut eyesight.camera_dice);
+                frame.taken = clock.tick;
+                frame.fix = eyesight.error.applied(team_pose);
+                eyesight.under_way.push_back(frame);
+            }
+            _ => {}
+        }
+    }
+}
+
+impl Scene {
+    fn of((ball, pose): (&Ball, &Pose), bodies: &Bodies, trailers: &Query<(&Trailer, &Pose)>) -> Scene {
+        Scene {
+            ball: pose.position,
+            ball_radius: ball.kind.radius,
+            robots: bodies.iter().map(|(id, robot, pose)| (*id, pose.position, robot.kind.reach())).collect(),
+            trailers: (trailers.iter())
+                .map(|(trailer, pose)| (trailer.of, pose.to_field(trailer.middle), trailer.radius))
+                .collect(),
+        }
+    }
+
+    fn seen_perfectly(&self, own: RobotId, pose: Pose, team_pose: Pose, tick: u64) -> Frame {
+        Frame {
+            taken: tick,
+            ball: Some(Sighting::of(self.ball, pose)),
+            robots: (self.robots.iter().filter(|(id, ..)| *id != own))
+                .map(|(id, at, _)| (id.team, Sighting::of(*at, pose)))
+                .collect(),
+            fix: team_pose,
+        }
+    }
+
+    fn seen_through(&self, camera: &Camera, own: RobotId, pose: Pose, dice: &mut Dice) -> Frame {
+        let others = self.robots.iter().filter(|(id, ..)| *id != own);
+        let units: Vec<(RobotId, Blob)> =
+            others.map(|(id, at, radius)| (*id, Blob::of(*at, *radius, pose))).collect();
+        let trailers: Vec<(RobotId, Blob)> = (self.trailers.iter().filter(|(id, ..)| *id != own))
+            .map(|(id, at, radius)| (*id, Blob::of(*at, *radius, pose)))
+            .collect();
+        let solid = || units.iter().chain(&trailers);
+        let ball = Blob::of(self.ball, self.ball_radius, pose);
+        let mut seen = look(camera, ball, camera.ball_range, solid().map(|(_, blob)| *blob), dice);
+        if seen.is_none() && dice.chance(camera.false_positive) {
+            let bearing = (dice.uniform() - 0.5) * camera.field_of_view.to_radians();
+            seen = Some(Sighting { range: 0.3 + dice.uniform() * (camera.ball_range - 0.3), bearing });
+        }
+        let robots = (units.iter())
+            .filter_map(|(id, blob)| {
+                let between = solid().filter(|(other, _)| other != id).map(|(_, blob)| *blob);
+                look(camera, *blob, camera.robot_range, between, dice).map(|sighting| (id.team, sighting))
+            })
+            .collect();
+        Frame { taken: 0, ball: seen, robots, fix: Pose::default() }
+    }
+}
+
+fn deliver_frames(clock: Res<Clock>, mut eyes: Query<(&mut Eyesight, &mut Percepts), Without<OffPitch>>) {
+    for (mut eyesight, mut percepts) in &mut eyes {
+        let latency = match &eyesight.sensing.eyes {
+            Eyes::Perfect => 0,
+            Eyes::Real { camera, .. } => (camera.latency / clock.dt).round() as u64,
+        };
+        while eyesight.under_way.front().is_some_and(|frame| frame.taken + latency <= clock.tick) {
+            percepts.frame = eyesight.under_way.pop_front();
+        }
+    }
+}
+
+/// Wheels that are told to move faster than this, m/s, and robots that move slower than the second, are stalled.
+const STALL: (f32, f32) = (0.12, 0.04);
+
+fn read_odometry(
+    clock: Res<Clock>,
+    mut robots: Query<(&Robot, &Eyesight, &Pose, &Twist, &WheelCommand, &mut Odometry), Without<OffPitch>>,
+) {
+    for (robot, eyesight, pose, twist, wheels, mut odometry) in &mut robots {
+        odometry.speed = twist.linear.dot(pose.forward());
+        odometry.turn_rate = twist.angular;
+        let (mut ahead, mut turn) = (odometry.speed * clock.dt, twist.angular * clock.dt);
+        odometry.unjudged += ahead.abs();
+        if let Eyes::Real { odometry: noise, .. } = &eyesight.sensing.eyes
+            && robot.decides(&clock)
+        {
+            let distance = std::mem::take(&mut odometry.unjudged);
+            let (more, more_turn) = odometry_error(noise, distance, &mut odometry.dice);
+            (ahead, turn) = (ahead + more, turn + more_turn);
+        }
+        odometry.pose = reckon(odometry.pose, ahead, turn);
+        let told = wheels.speeds.left.abs().max(wheels.speeds.right.abs());
+        let moved = odometry.speed.abs() + 0.1 * odometry.turn_rate.abs();
+        odometry.stalled_for =
+            if told > STALL.0 && moved < STALL.1 { odometry.stalled_for + clock.dt } else { 0.0 };
+    }
+}
+
+/// Whether a point at this sighting would be well inside the camera's view, so that not seeing it means something.
+pub fn should_be_seen(eyes: &Eyes, sighting: Sighting) -> bool {
+    match eyes {
+        Eyes::Perfect => true,
+        Eyes::Real { camera, .. } => {
+            sighting.range < 0.7 * camera.ball_range
+                && wrap_angle(sighting.bearing).abs() < 0.4 * camera.field_of_view.to_radians().min(2.0 * PI)
+        }
+    }
+}

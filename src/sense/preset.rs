@@ -1,0 +1,120 @@
+//! How well a robot sees and remembers, as data: the named presets in `assets/sensing/*.ron`.
+//!
+//! Lengths are metres, times seconds, angles degrees; noise values are standard deviations.
+
+use serde::{Deserialize, Serialize};
+
+/// Eyes, localisation, odometry and memory of a robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sensing {
+    pub name: String,
+    pub eyes: Eyes,
+    pub memory: MemorySpans,
+}
+
+/// Perfect sensing is a switch: everything, at once, without noise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Eyes {
+    Perfect,
+    Real { camera: Camera, localisation: Localisation, odometry: OdometryNoise },
+}
+
+/// A colour-blob camera that looks ahead.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Camera {
+    pub field_of_view: f32,
+    pub frame_hz: f32,
+    /// From the shutter to the percept.
+    pub latency: f32,
+    /// Farthest usable reading of the ball.
+    pub ball_range: f32,
+    /// Farthest usable reading of a robot's marker.
+    pub robot_range: f32,
+    /// Noise of a range r is this times r², 1/m: a pixel means more metres farther away.
+    pub range_noise: f32,
+    /// Added to the above, m.
+    pub range_floor: f32,
+    pub bearing_noise: f32,
+    /// Chance that a frame shows what is in full view and near; falls to 0.3 of it at the end of the range.
+    pub detection: f32,
+    /// Least visible share of a thing that is still recognised.
+    pub visible_share: f32,
+    /// Chance per frame to take something else for the ball.
+    pub false_positive: f32,
+}
+
+/// Self-localisation that is wrong by a slowly drifting amount.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Localisation {
+    /// Of each coordinate.
+    pub position: f32,
+    pub heading: f32,
+    /// How long an error lasts: the time in which it falls to a third, left alone.
+    pub drift_time: f32,
+    /// Mean time between two jumps to another error.
+    pub jump_time: f32,
+}
+
+/// Dead reckoning from the wheels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OdometryNoise {
+    /// After one metre; grows with the root of the distance.
+    pub distance: f32,
+    /// After half a metre; grows with the root of the distance, degrees.
+    pub heading: f32,
+}
+
+/// How long things are believed that are not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MemorySpans {
+    pub ball: f32,
+    pub robots: f32,
+}
+
+impl Sensing {
+    /// What is wrong with the numbers, as the field's path and a reason.
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        let mut at_least_0 = vec![("memory.ball", self.memory.ball), ("memory.robots", self.memory.robots)];
+        let mut positive = Vec::new();
+        let mut shares = Vec::new();
+        if let Eyes::Real { camera, localisation, odometry } = &self.eyes {
+            positive.extend([
+                ("eyes.camera.field_of_view", camera.field_of_view),
+                ("eyes.camera.frame_hz", camera.frame_hz),
+                ("eyes.camera.ball_range", camera.ball_range),
+                ("eyes.camera.robot_range", camera.robot_range),
+                ("eyes.localisation.drift_time", localisation.drift_time),
+                ("eyes.localisation.jump_time", localisation.jump_time),
+            ]);
+            at_least_0.extend([
+                ("eyes.camera.latency", camera.latency),
+                ("eyes.camera.range_noise", camera.range_noise),
+                ("eyes.camera.range_floor", camera.range_floor),
+                ("eyes.camera.bearing_noise", camera.bearing_noise),
+                ("eyes.localisation.position", localisation.position),
+                ("eyes.localisation.heading", localisation.heading),
+                ("eyes.odometry.distance", odometry.distance),
+                ("eyes.odometry.heading", odometry.heading),
+            ]);
+            shares.extend([
+                ("eyes.camera.detection", camera.detection),
+                ("eyes.camera.visible_share", camera.visible_share),
+                ("eyes.camera.false_positive", camera.false_positive),
+            ]);
+        }
+        let faulty = |(_, value): &(&str, f32), sound: fn(f32) -> bool| !(value.is_finite() && sound(*value));
+        let find = |list: Vec<(&'static str, f32)>, sound: fn(f32) -> bool, rule: &str| {
+            let (field, value) = list.into_iter().find(|entry| faulty(entry, sound))?;
+            Some((field, format!("must be {rule}, not {value}")))
+        };
+        find(positive, |v| v > 0.0, "a positive number")
+            .or_else(|| find(at_least_0, |v| v >= 0.0, "at least 0"))
+            .or_else(|| find(shares, |v| (0.0..=1.0).contains(&v), "between 0 and 1"))
+    }
+}

@@ -1,0 +1,39 @@
+//! Features as people read them, in transition logs and in the inspector.
+
+use std::fmt;
+
+use super::language::Feature;
+use crate::data::ron_options;
+
+impl fmt::Display for Feature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let list = |f: &mut fmt::Formatter<'_>, parts: &[Feature], word: &str| {
+            let parts: Vec<String> = parts.iter().map(Feature::to_string).collect();
+            f.write_str(&parts.join(word))
+        };
+        match self {
+            Feature::Is(name) => f.write_str(name),
+            Feature::Always => f.write_str("always"),
+            Feature::Not(what) => write!(f, "not {what}"),
+            Feature::All(parts) => list(f, parts, " and "),
+            Feature::Any(parts) => list(f, parts, " or "),
+            Feature::After(seconds) => write!(f, "after {seconds} s"),
+            Feature::Stalled(seconds) => write!(f, "stalled for {seconds} s"),
+            Feature::HoldFor { what, .. } => write!(f, "lately {what}"),
+            Feature::Lasting { what, seconds, .. } => write!(f, "{what} for {seconds} s"),
+            other => f.write_str(&ron_options().to_string(other).unwrap_or_default()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn features_read_like_sentences() {
+        let feature =
+            Feature::All(vec![Feature::Not(Box::new(Feature::Is("ball_seen".into()))), Feature::After(4.0)]);
+        assert_eq!(feature.to_string(), "not ball_seen and after 4 s");
+    }
+}

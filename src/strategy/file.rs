@@ -1,0 +1,127 @@
+//! A strategy as it is written: the serde types of `assets/strategies/*.ron`, names not yet looked up.
+
+use std::collections::BTreeMap;
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::language::{Feature, Point, Points, Schema};
+use crate::geometry::Zone;
+
+/// A whole strategy file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StrategyFile {
+    pub name: String,
+    #[serde(default)]
+    pub description: String,
+    /// Kinds of robots that can play it, by their files' names.
+    pub robot_kinds: Vec<String>,
+    /// The role of each robot at kick-off, by number.
+    pub players: Vec<String>,
+    pub kick_off: KickOff,
+    #[serde(default)]
+    pub zones: BTreeMap<String, Zone>,
+    #[serde(default)]
+    pub percepts: BTreeMap<String, Point>,
+    #[serde(default)]
+    pub point_sets: BTreeMap<String, Points>,
+    #[serde(default)]
+    pub features: BTreeMap<String, Feature>,
+    pub schemas: BTreeMap<String, Schema>,
+    pub assemblages: BTreeMap<String, AssemblageFile>,
+    pub machines: BTreeMap<String, MachineFile>,
+    pub roles: BTreeMap<String, RoleFile>,
+}
+
+/// Where people put the robots for a kick-off, by number: x, y in the team frame, looking at the opponents' goal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KickOff {
+    /// When this team kicks off.
+    pub ours: Vec<Vec2>,
+    /// When the opponents do.
+    pub theirs: Vec<Vec2>,
+}
+
+/// Motor schemas by name, a weight beside each, and how they become one vector.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum AssemblageFile {
+    WeightedSum(Vec<(f32, String)>),
+    WinnerTakeAll(Vec<(f32, String)>),
+}
+
+/// A finite state machine: each state is an activity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MachineFile {
+    pub start: String,
+    pub states: BTreeMap<String, StateFile>,
+}
+
+/// What a robot does in a state, and what takes it to another one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StateFile {
+    /// The assemblage that steers; without one the robot stays where it is, or backs straight off if it is in reverse.
+    #[serde(default)]
+    pub run: Option<String>,
+    /// Share of the robot's top speed, 0 to 1.
+    #[serde(default = "full_speed")]
+    pub speed: f32,
+    /// Drives with the rear ahead.
+    #[serde(default)]
+    pub reverse: bool,
+    /// What to turn to while standing.
+    #[serde(default)]
+    pub turn: TurnFile,
+    /// In order: the first transition whose feature holds is taken, at most one per decision.
+    #[serde(default)]
+    pub on: Vec<TransitionFile>,
+}
+
+fn full_speed() -> f32 {
+    1.0
+}
+
+/// What a standing robot turns to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum TurnFile {
+    #[default]
+    Stay,
+    /// Rotates to face a point.
+    Face(Point),
+    /// Rotates at so many degrees per second.
+    Spin(f32),
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TransitionFile {
+    pub when: Feature,
+    pub go: String,
+}
+
+/// A role: one that plays a machine, or one that acts as other roles by turns, as the floater does.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum RoleFile {
+    Plays {
+        /// One or two letters for the label on the pitch.
+        tag: String,
+        machine: String,
+        /// The zone of control (figure 2); may reach beyond the pitch to allow for errors in localisation.
+        danger_zone: Zone,
+        /// Where to go without a ball: the nearest of these.
+        homebases: Vec<Vec2>,
+    },
+    /// The first sub-role whose feature holds; the last one chosen, while none does.
+    ActsAs { tag: String, sub_roles: Vec<SubRoleFile> },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SubRoleFile {
+    pub when: Feature,
+    pub role: String,
+}

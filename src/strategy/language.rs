@@ -1,0 +1,275 @@
+//! The words of a strategy file: points, sets of points, features, motor schemas. All positions are metres in the team frame
+//! (x towards the opponents' goal, y to the left), times seconds, angles degrees.
+//!
+//! A file may name a piece in `percepts`, `point_sets`, `features` or `schemas` and use it by that name; once a strategy is
+//! loaded, every name has been replaced by what it stands for.
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Zone;
+
+/// One place on the field, or nowhere while it is unknown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Point {
+    /// A point from `percepts`.
+    Named(String),
+    /// Where the robot believes the ball is.
+    Ball,
+    /// Where the ball will be in so many seconds, as it rolls.
+    BallIn(f32),
+    /// The middle of the team's own goal line.
+    OurGoal,
+    /// The middle of the opponents' goal line.
+    TheirGoal,
+    /// The homebase that the robot's role has chosen.
+    Homebase,
+    /// Where the robot believes it is itself.
+    Own,
+    At(Vec2),
+    /// The member of a set that is nearest to the robot.
+    Closest(Box<Points>),
+    /// The mean of a set.
+    Average(Box<Points>),
+    Midpoint(Box<Point>, Box<Point>),
+    /// A point moved by the way from one point to another.
+    Moved {
+        of: Box<Point>,
+        from: Box<Point>,
+        to: Box<Point>,
+    },
+    /// `distance` metres from one point on the way to another; negative distances lead away from it.
+    Toward {
+        from: Box<Point>,
+        to: Box<Point>,
+        distance: f32,
+    },
+    /// `offset` metres behind a point, as seen from another: where to stand to push it there.
+    SweetSpot {
+        of: Box<Point>,
+        toward: Box<Point>,
+        offset: f32,
+    },
+    /// Where a robot of this speed (m/s) meets the rolling ball.
+    Intercept {
+        max_speed: f32,
+    },
+    /// The place in a zone that is nearest to a point.
+    Into {
+        zone: ZoneName,
+        point: Box<Point>,
+    },
+}
+
+/// Any number of places.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Points {
+    /// A set from `point_sets`.
+    Named(String),
+    Teammates,
+    Opponents,
+    /// The nearest point of each of the four walls.
+    Walls,
+    /// Exactly these.
+    These(Vec<Point>),
+    Union(Vec<Points>),
+    /// Those within `radius` of the robot.
+    Within {
+        of: Box<Points>,
+        radius: f32,
+    },
+    /// Those within `radius` of the robot; the nearest one, where there are none.
+    WithinOrClosest {
+        of: Box<Points>,
+        radius: f32,
+    },
+    /// Those farther than `radius` from a point.
+    FartherThan {
+        of: Box<Points>,
+        from: Box<Point>,
+        radius: f32,
+    },
+    /// Also those of the last so many seconds; a new one within `merge` metres replaces an old one, of which the share
+    /// `blend` is kept.
+    Remember {
+        of: Box<Points>,
+        seconds: f32,
+        merge: f32,
+        blend: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+    /// All of them, moved by a vector.
+    Shifted {
+        of: Box<Points>,
+        by: Vec2,
+    },
+}
+
+/// A zone that every robot knows, or one of the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum ZoneName {
+    /// A zone from `zones`.
+    Named(String),
+    /// The zone of control of the robot's role (figure 2).
+    DangerZone,
+    PenaltyArea,
+    Exactly(Zone),
+}
+
+/// A statement that is true or false.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Feature {
+    /// A statement from `features`.
+    Is(String),
+    Always,
+    Not(Box<Feature>),
+    All(Vec<Feature>),
+    Any(Vec<Feature>),
+    /// The place of something is known.
+    Known(Point),
+    /// The camera has shown the ball within the last so many seconds.
+    BallSeenWithin(f32),
+    /// Two points are known and nearer than `radius`.
+    Near {
+        a: Point,
+        b: Point,
+        radius: f32,
+    },
+    /// As `Near`, but once true it stays true up to the radius `leave`.
+    NearLatch {
+        a: Point,
+        b: Point,
+        enter: f32,
+        leave: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+    /// `a` is nearer to the robot than `b`.
+    NearerThan {
+        a: Point,
+        b: Point,
+    },
+    /// A point is known and lies in a zone.
+    In {
+        zone: ZoneName,
+        point: Point,
+    },
+    /// A point is known and within so many degrees of straight ahead.
+    Facing {
+        point: Point,
+        within: f32,
+    },
+    /// Robot, ball and target are in line within so many degrees, with the robot behind.
+    BehindBall {
+        toward: Point,
+        within: f32,
+    },
+    /// The ball lies in front of the robot's body: `gap` metres between them at most, `aside` metres off the middle at most.
+    BallInScoop {
+        gap: f32,
+        aside: f32,
+    },
+    /// The wheels have been turning for so many seconds without moving the robot.
+    Stalled(f32),
+    /// The robot has been in its present state for so many seconds.
+    After(f32),
+    /// The statement was true within the last so many seconds.
+    HoldFor {
+        what: Box<Feature>,
+        seconds: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+    /// The statement has been true for so many seconds without a break.
+    Lasting {
+        what: Box<Feature>,
+        seconds: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+    /// The statement was not true for `patience` seconds; stays true for `seconds`.
+    Watchdog {
+        what: Box<Feature>,
+        patience: f32,
+        seconds: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+}
+
+/// A motor schema: what it turns into a direction and a speed between 0 and 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Schema {
+    /// Linear attraction: full speed beyond `controlled_zone`, none within `dead_zone`.
+    GoTo {
+        target: Point,
+        #[serde(default)]
+        controlled_zone: f32,
+        #[serde(default)]
+        dead_zone: f32,
+    },
+    /// Linear attraction to each point of a set.
+    GoToAll {
+        targets: Points,
+        #[serde(default)]
+        controlled_zone: f32,
+        #[serde(default)]
+        dead_zone: f32,
+    },
+    /// Attraction that grows as the robot comes nearer.
+    AttractNear { to: Points, sphere: f32, safety: f32 },
+    /// Linear repulsion within `sphere`, strongest within `safety`.
+    Avoid { of: Points, sphere: f32, safety: f32 },
+    /// Leads around what lies on the way to `toward`.
+    Swirl { around: Points, toward: Point, sphere: f32, safety: f32 },
+    /// Leads around everything, always on its left.
+    SwirlLeft { around: Points, sphere: f32, safety: f32 },
+    /// Leads around what is ahead, strongest a little off the middle.
+    GeoField { around: Points, toward: Point, sphere: f32, safety: f32 },
+    /// A random direction, drawn anew every `period` seconds.
+    Noise {
+        period: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+    /// Gets behind the ball, facing `toward`.
+    DockBehind {
+        #[serde(default = "ball")]
+        ball: Point,
+        toward: Point,
+        standoff: f32,
+        #[serde(default = "enter_cone")]
+        enter_cone: f32,
+        #[serde(default = "leave_cone")]
+        leave_cone: f32,
+        #[serde(skip)]
+        slot: usize,
+    },
+    /// Pushes a ball that is in the scoop towards a point, turning no more than `tight` degrees at a time.
+    Dribble {
+        #[serde(default = "ball")]
+        ball: Point,
+        toward: Point,
+        tight: f32,
+    },
+    /// Always the same vector.
+    Constant(Vec2),
+}
+
+fn ball() -> Point {
+    Point::Ball
+}
+
+fn enter_cone() -> f32 {
+    60.0
+}
+
+fn leave_cone() -> f32 {
+    75.0
+}

@@ -1,0 +1,150 @@
+//! Strategies: what a team's robots know, want and do, as data.
+//!
+//! A file in `assets/strategies` is parsed into a [`StrategyFile`] and then resolved into the [`Strategy`] that runs: names
+//! looked up, numbers checked, nothing half-loaded. See [`language`] for the words of a file.
+
+mod display;
+mod file;
+pub mod language;
+mod resolve;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use crate::data::{DataError, Source};
+use crate::geometry::Zone;
+use crate::ids::Team;
+pub use file::{KickOff, StrategyFile};
+use language::{Feature, Point, Schema};
+
+/// A strategy that can be played: every name is an index, every number is sound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Strategy {
+    pub name: String,
+    pub description: String,
+    pub robot_kinds: Vec<String>,
+    pub roles: Vec<RoleSpec>,
+    /// Index into `roles` for each robot at kick-off, by number.
+    pub players: Vec<usize>,
+    pub kick_off: KickOff,
+    pub machines: Vec<Machine>,
+    pub assemblages: Vec<Assemblage>,
+    /// How many memories its stateful operators need.
+    pub slots: usize,
+}
+
+/// A role and what it consists of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoleSpec {
+    pub name: String,
+    pub tag: String,
+    pub part: Part,
+}
+
+/// A role plays a machine itself or acts as other roles by turns.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Part {
+    Plays { machine: usize, danger_zone: Zone, homebases: Vec<Vec2> },
+    ActsAs(Vec<SubRole>),
+}
+
+/// Another role, and when to act in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SubRole {
+    pub when: Feature,
+    pub role: usize,
+}
+
+/// A finite state machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    pub name: String,
+    pub start: usize,
+    pub states: Vec<State>,
+}
+
+/// An activity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    pub name: String,
+    pub assemblage: Option<usize>,
+    pub speed: f32,
+    pub reverse: bool,
+    pub turn: Turn,
+    pub transitions: Vec<Transition>,
+}
+
+/// What a standing robot turns to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Turn {
+    Stay,
+    Face(Point),
+    /// rad/s
+    Spin(f32),
+}
+
+/// A way out of a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    pub when: Feature,
+    pub go: usize,
+    /// The feature as the file has it, for people.
+    pub label: String,
+}
+
+/// Weighted motor schemas.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assemblage {
+    pub name: String,
+    pub combination: Combination,
+    pub terms: Vec<Term>,
+}
+
+/// How the vectors of an assemblage become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Combination {
+    WeightedSum,
+    WinnerTakeAll,
+}
+
+/// A motor schema and its weight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    pub weight: f32,
+    pub name: String,
+    pub schema: Schema,
+}
+
+impl Strategy {
+    /// Reads and checks a strategy file.
+    ///
+    /// # Errors
+    /// Says what is wrong with the file's path, line, column and field; a strategy is loaded whole or not at all.
+    pub fn read(path: &Path) -> Result<Strategy, DataError> {
+        Strategy::parse(&Source::read(path)?)
+    }
+
+    /// Checks the text of a strategy file.
+    ///
+    /// # Errors
+    /// As [`Strategy::read`].
+    pub fn parse(source: &Source) -> Result<Strategy, DataError> {
+        resolve::resolve(&source.parse()?, source)
+    }
+
+    pub fn state(&self, machine: usize, state: usize) -> &State {
+        &self.machines[machine].states[state]
+    }
+}
+
+/// The strategies of a match, home first. They change only in the Script stage.
+#[derive(Resource, Clone, Debug)]
+pub struct Strategies(pub [Arc<Strategy>; 2]);
+
+impl Strategies {
+    pub fn of(&self, team: Team) -> &Strategy {
+        &self.0[team.index()]
+    }
+}

@@ -1,0 +1,215 @@
+//! The WorldModel stage: each robot's beliefs about itself, the ball and the others, in its team frame.
+//!
+//! Between frames everything is dead-reckoned; a frame corrects the beliefs as they were when its shutter opened. What has
+//! not been seen for a while is forgotten.
+
+mod ball_filter;
+
+use std::collections::VecDeque;
+
+use bevy::prelude::*;
+
+pub use ball_filter::{BallFilter, roll_on};
+
+use crate::clock::Clock;
+use crate::geometry::{Pose, Sighting, wrap_angle};
+use crate::ids::{RobotId, Team};
+use crate::pitch::Pitch;
+use crate::referee::OffPitch;
+use crate::robot::Robot;
+use crate::schedule::{Tick, TickSystems};
+use crate::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));
+}
+
+/// What a robot believes, in its team frame.
+#[derive(Component, Clone, Debug, Default)]
+pub struct WorldModel {
+    pub pose: Pose,
+    pub ball: Option<BallBelief>,
+    /// The other robots, its own team's and the opponents', as far as it knows of them.
+    pub robots: Vec<RobotBelief>,
+    filter: Option<BallFilter>,
+    /// Believed poses of the last ticks, oldest first: a frame is older than now.
+    past: VecDeque<(u64, Pose)>,
+    odometry: Option<Pose>,
+    last_frame: Option<u64>,
+    misses: u32,
+}
+
+/// A ball that a robot believes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallBelief {
+    /// m
+    pub position: Vec2,
+    /// m/s
+    pub velocity: Vec2,
+    /// The tick of the frame that showed it last.
+    pub seen: u64,
+}
+
+/// Another robot that a robot believes in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RobotBelief {
+    pub team: Team,
+    /// m
+    pub position: Vec2,
+    /// The tick of the frame that showed it last.
+    pub seen: u64,
+}
+
+/// Share of a localisation fix that is believed at once; the rest is dead reckoning.
+const FIX_GAIN: f32 = 0.2;
+/// A fix farther off than this is believed whole, as after being carried, m and rad.
+const FIX_JUMP: (f32, f32) = (1.0, 0.7);
+/// Sightings nearer to a known robot of the same team than this are taken for it, m.
+const SAME_ROBOT: f32 = 0.7;
+/// After this many frames that should have shown the ball and did not, it is gone.
+const MISSES: u32 = 6;
+/// Deceleration that robots expect of a rolling ball, m/s².
+pub const EXPECTED_ROLLING: f32 = 0.3;
+
+impl WorldModel {
+    /// The beliefs of a robot that people have just put down somewhere and told where it is.
+    pub fn told(pose: Pose) -> WorldModel {
+        WorldModel { pose, ..WorldModel::default() }
+    }
+
+    pub fn of_team(&self, team: Team) -> impl Iterator<Item = Vec2> + '_ {
+        self.robots.iter().filter(move |robot| robot.team == team).map(|robot| robot.position)
+    }
+
+    fn dead_reckon(&mut self, odometry: Pose, tick: u64) {
+        if let Some(before) = self.odometry.replace(odometry) {
+            let way = before.to_local(odometry.position);
+            let turn = wrap_angle(odometry.heading - before.heading);
+            self.pose = reckon(self.pose, way.length() * way.x.signum(), turn);
+        }
+        self.past.push_back((tick, self.pose));
+        if self.past.len() > PAST {
+            self.past.pop_front();
+        }
+    }
+
+    fn pose_at(&self, tick: u64) -> Pose {
+        let known = self.past.iter().rev().find(|(at, _)| *at <= tick).or(self.past.front());
+        known.map_or(self.pose, |(_, pose)| *pose)
+    }
+
+    fn localise(&mut self, frame: &Frame) {
+        let then = self.pose_at(frame.taken);
+        let offset = frame.fix.position - then.position;
+        let turn = wrap_angle(frame.fix.heading - then.heading);
+        let jump = offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1;
+        let gain = if jump { 1.0 } else { FIX_GAIN };
+        let correct = |pose: Pose| Pose {
+            position: pose.position + gain * offset,
+            heading: wrap_angle(pose.heading + gain * turn),
+        };
+        self.pose = correct(self.pose);
+        self.past.iter_mut().for_each(|(_, pose)| *pose = correct(*pose));
+    }
+
+    fn see_ball(&mut self, frame: &Frame, eyes: &Eyes, dt_since_last: f32) {
+        let then = self.pose_at(frame.taken);
+        let filter = self.filter.map(|filter| filter.predict(dt_since_last, EXPECTED_ROLLING));
+        match frame.ball {
+            Some(sighting) => {
+                let deviation = deviation(eyes, sighting);
+                let at = sighting.placed(then);
+                self.filter = Some(match filter {
+                    Some(filter) => filter.update(at, deviation),
+                    None => BallFilter::new(at, deviation),
+                });
+                self.misses = 0;
+                self.ball = self.filter.map(|filter| BallBelief {
+                    position: filter.position,
+                    velocity: filter.velocity,
+                    seen: frame.taken,
+                });
+            }
+            None => {
+                self.filter = filter;
+                let expected = filter.map(|filter| Sighting::of(filter.position, then));
+                if expected.is_some_and(|expected| should_be_seen(eyes, expected)) {
+                    self.misses += 1;
+                }
+            }
+        }
+    }
+
+    fn see_robots(&mut self, frame: &Frame) {
+        let then = self.pose_at(frame.taken);
+        for (team, sighting) in &frame.robots {
+            let (at, seen) = (sighting.placed(then), frame.taken);
+            let known = (self.robots.iter_mut())
+                .filter(|known| known.team == *team && known.seen < seen)
+                .map(|known| (known.position.distance(at), known))
+                .filter(|(distance, _)| *distance < SAME_ROBOT)
+                .min_by(|(a, _), (b, _)| a.total_cmp(b));
+            match known {
+                Some((_, known)) => {
+                    known.position = known.position.lerp(at, 0.6);
+                    known.seen = seen;
+                }
+                None => self.robots.push(RobotBelief { team: *team, position: at, seen }),
+            }
+        }
+    }
+
+    fn forget(&mut self, eyesight: &Eyesight, clock: &Clock) {
+        let spans = eyesight.sensing.memory;
+        let age = |seen: u64| clock.tick.saturating_sub(seen) as f32 * clock.dt;
+        if self.misses >= MISSES || self.ball.is_some_and(|ball| age(ball.seen) > spans.ball) {
+            (self.ball, self.filter, self.misses) = (None, None, 0);
+        }
+        self.robots.retain(|robot| age(robot.seen) <= spans.robots);
+    }
+}
+
+/// Ticks of own poses that are kept: more than any latency.
+const PAST: usize = 16;
+
+fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
+    match eyes {
+        Eyes::Perfect => 0.001,
+        Eyes::Real { camera, .. } => {
+            let across = camera.bearing_noise.to_radians() * sighting.range;
+            range_deviation(camera, sighting.range).max(across).max(0.01)
+        }
+    }
+}
+
+type Minds<'a> = (&'a Robot, &'a Eyesight, &'a Percepts, &'a Odometry, &'a mut WorldModel);
+
+fn update_world_models(
+    clock: Res<Clock>,
+    pitch: Res<Pitch>,
+    mut robots: Query<Minds, (With<RobotId>, Without<OffPitch>)>,
+) {
+    for (robot, eyesight, percepts, odometry, mut model) in &mut robots {
+        if !robot.decides(&clock) {
+            continue;
+        }
+        let model = &mut *model;
+        model.dead_reckon(odometry.pose, clock.tick);
+        let fresh = percepts.frame.as_ref().filter(|frame| Some(frame.taken) > model.last_frame);
+        if let Some(frame) = fresh {
+            let since = frame.taken - model.last_frame.unwrap_or(frame.taken);
+            model.localise(frame);
+            model.see_ball(frame, &eyesight.sensing.eyes, since as f32 * clock.dt);
+            model.see_robots(frame);
+            model.last_frame = Some(frame.taken);
+        }
+        if let (Some(ball), Some(filter), Some(last)) = (&mut model.ball, model.filter, model.last_frame) {
+            let age = (clock.tick - last) as f32 * clock.dt;
+            let (position, velocity) = roll_on(filter.position, filter.velocity, EXPECTED_ROLLING, age);
+            let half = pitch.half_size();
+            ball.position = position.clamp(-half - pitch.goal.depth, half + pitch.goal.depth);
+            ball.velocity = velocity;
+        }
+        model.forget(eyesight, &clock);
+    }
+}
