@@ -15,7 +15,10 @@ use crate::robot::{Robot, Scoop};
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, (hold_ball_in_scoops, roll_ball).chain().after(push_bodies).in_set(TickSystems::Drive));
+    app.add_systems(
+        Tick,
+        (hold_ball_in_scoops, roll_ball).chain().after(push_bodies).in_set(TickSystems::Drive),
+    );
 }
 
 /// The ball, with the part of its spin that rolling needs.

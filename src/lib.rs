@@ -33,6 +33,8 @@ pub mod script;
 pub mod sense;
 pub mod strategy;
 pub mod teamwork;
+#[cfg(feature = "window")]
+pub mod view;
 pub mod world_model;
 
 use bevy::prelude::*;

@@ -72,7 +72,11 @@ fn intended(intent: SteeringIntent, heading: f32, drive: &DifferentialDrive) -> 
     }
 }
 
-pub(crate) fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, robots: Query<(&Robot, &RobotBodies, &WheelCommand)>) {
+pub(crate) fn push_bodies(
+    clock: Res<Clock>,
+    mut bodies: Bodies,
+    robots: Query<(&Robot, &RobotBodies, &WheelCommand)>,
+) {
     for (robot, handles, command) in &robots {
         let Drive::Differential(drive) = &robot.kind.drive;
         let Some(mut unit) = bodies.get(&handles.unit).map(rigid) else { continue };

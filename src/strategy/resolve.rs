@@ -383,9 +383,9 @@ impl Resolver<'_> {
     }
 
     fn assemblage(&mut self, name: &str, file: &AssemblageFile, at: &Field) -> Result<Assemblage> {
-        let (combination, terms) = match file {
-            AssemblageFile::WeightedSum(terms) => (Combination::WeightedSum, terms),
-            AssemblageFile::WinnerTakeAll(terms) => (Combination::WinnerTakeAll, terms),
+        let (combination, terms, at) = match file {
+            AssemblageFile::WeightedSum(terms) => (Combination::WeightedSum, terms, at.key("WeightedSum")),
+            AssemblageFile::WinnerTakeAll(terms) => (Combination::WinnerTakeAll, terms, at.key("WinnerTakeAll")),
         };
         let terms = (terms.iter().enumerate())
             .map(|(i, (weight, schema))| self.term(*weight, schema, &at.index(i)))

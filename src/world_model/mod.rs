@@ -32,7 +32,7 @@ pub struct WorldModel {
     /// The other robots, its own team's and the opponents', as far as it knows of them.
     pub robots: Vec<RobotBelief>,
     filter: Option<BallFilter>,
-    /// Believed poses of the last ticks, oldest first: a frame is older than now.
+    /// Believed poses of the last decisions, oldest first: a frame is older than now.
     past: VecDeque<(u64, Pose)>,
     odometry: Option<Pose>,
     last_frame: Option<u64>,
@@ -98,12 +98,12 @@ impl WorldModel {
         known.map_or(self.pose, |(_, pose)| *pose)
     }
 
-    fn localise(&mut self, frame: &Frame) {
+    fn localise(&mut self, frame: &Frame, eyes: &Eyes) {
         let then = self.pose_at(frame.taken);
         let offset = frame.fix.position - then.position;
         let turn = wrap_angle(frame.fix.heading - then.heading);
         let jump = offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1;
-        let gain = if jump { 1.0 } else { FIX_GAIN };
+        let gain = if jump || *eyes == Eyes::Perfect { 1.0 } else { FIX_GAIN };
         let correct = |pose: Pose| Pose {
             position: pose.position + gain * offset,
             heading: wrap_angle(pose.heading + gain * turn),
@@ -169,7 +169,7 @@ impl WorldModel {
     }
 }
 
-/// Ticks of own poses that are kept: more than any latency.
+/// Decisions whose poses are kept: more than any latency.
 const PAST: usize = 16;
 
 fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
@@ -198,7 +198,7 @@ fn update_world_models(
         let fresh = percepts.frame.as_ref().filter(|frame| Some(frame.taken) > model.last_frame);
         if let Some(frame) = fresh {
             let since = frame.taken - model.last_frame.unwrap_or(frame.taken);
-            model.localise(frame);
+            model.localise(frame, &eyesight.sensing.eyes);
             model.see_ball(frame, &eyesight.sensing.eyes, since as f32 * clock.dt);
             model.see_robots(frame);
             model.last_frame = Some(frame.taken);

@@ -1,0 +1,72 @@
+//! Who the robot is: its number in its team's colour, its role, what it is built as, and who drives it.
+
+use bevy_egui::egui::{self, RichText};
+
+use super::Desk;
+use crate::ids::RobotId;
+use crate::inspector::subject::Looked;
+use crate::inspector::{figures, table, tints};
+use crate::script::Request;
+
+pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+    let strategy = robot.strategy;
+    let role_name = |index: usize| strategy.roles.get(index).map_or(figures::UNKNOWN, |role| &role.name);
+    ui.horizontal(|ui| {
+        shirt(ui, robot.id);
+        ui.label(RichText::new(role_name(robot.of.role.0)).heading());
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            hand_over(ui, robot.id, robot.of.piloted, desk);
+        });
+    });
+    ui.add_space(2.0);
+    if robot.of.activity.acting_as != robot.of.role.0 {
+        table::line(ui, "acts as", role_name(robot.of.activity.acting_as));
+    }
+    let kind = &robot.of.robot.kind;
+    let build = format!("{}, {} at most", kind.name, figures::speed(kind.max_speed()));
+    table::line(ui, "robot", build);
+    let driver = if robot.of.piloted { "you" } else { strategy.name.as_str() };
+    table::line(ui, "driven by", driver).on_hover_text(strategy.description.as_str());
+    if robot.of.off_pitch {
+        table::line(ui, "off the pitch", RichText::new(penalty(robot)).strong());
+    }
+}
+
+/// The robot's number on its team's colour.
+fn shirt(ui: &mut egui::Ui, id: RobotId) {
+    let size = egui::vec2(26.0, 26.0);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    ui.painter().rect_filled(rect, 5.0, tints::egui(tints::team(id.team)));
+    let font = egui::FontId::proportional(17.0);
+    let ink = egui::Color32::from_gray(16);
+    ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, id.number, font, ink);
+    response.on_hover_text(id.to_string());
+}
+
+fn penalty(robot: &Looked) -> String {
+    let removal = robot.state.removed.iter().find(|removal| removal.robot == robot.id);
+    match removal.map(|removal| removal.seconds_left as f32) {
+        Some(left) if left > 0.0 => format!("for another {} of play", figures::seconds(left)),
+        _ => "until a place is free".into(),
+    }
+}
+
+fn hand_over(ui: &mut egui::Ui, id: RobotId, piloted: bool, desk: &mut Desk) {
+    let (words, tip) = if piloted {
+        ("Hand back", "Let the strategy drive it again (H)")
+    } else {
+        ("Take over", "Drive this robot yourself, with W A S D or the arrow keys (H)")
+    };
+    if !ui.button(words).on_hover_text(tip).clicked() {
+        return;
+    }
+    if piloted {
+        desk.requests.ask(Request::HandBack(id));
+        desk.piloted.0 = desk.piloted.0.filter(|other| *other != id);
+        return;
+    }
+    if let Some(other) = desk.piloted.0.replace(id).filter(|other| *other != id) {
+        desk.requests.ask(Request::HandBack(other));
+    }
+    desk.requests.ask(Request::TakeOver(id));
+}

@@ -1,0 +1,39 @@
+//! The parts of the inspector's panel, one file each. Each draws what it is given and may ask for changes.
+
+mod activity;
+mod beliefs;
+mod identity;
+mod motor;
+mod percepts;
+
+use bevy::prelude::*;
+use bevy_egui::egui;
+
+use super::subject::Looked;
+use super::weights::Weights;
+use crate::script::Requests;
+use crate::view::state::Piloted;
+
+/// What the panel may ask for, and what it shows of that.
+pub struct Desk<'a> {
+    pub requests: &'a mut Requests,
+    pub weights: &'a mut Weights,
+    pub piloted: &'a mut Piloted,
+}
+
+/// Draws everything about a robot, from top to bottom.
+pub fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+    identity::draw(ui, robot, desk);
+    section(ui, "Activity", |ui| activity::draw(ui, robot));
+    section(ui, "Motor", |ui| motor::draw(ui, robot, desk));
+    section(ui, "Beliefs beside the truth", |ui| beliefs::draw(ui, robot));
+    section(ui, "Percepts", |ui| percepts::draw(ui, robot));
+}
+
+fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
+    ui.add_space(4.0);
+    egui::CollapsingHeader::new(egui::RichText::new(title).strong())
+        .id_salt(title)
+        .default_open(true)
+        .show_unindented(ui, contents);
+}

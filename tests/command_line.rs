@@ -1,0 +1,85 @@
+//! The program as a person or a script calls it.
+
+use std::process::{Command, Output};
+
+use crate::support::strategy_text;
+
+fn touchline(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_touchline"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+#[test]
+fn a_match_prints_its_result_as_json() {
+    let output = touchline(&["run", "--minutes", "0.1", "--seed", "5", "--json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+    assert_eq!(report["seed"], 5);
+    assert_eq!(report["teams"][1], "Ball chasers");
+    assert_eq!(report["digest"].as_str().map(str::len), Some(16));
+    let again = touchline(&["run", "--minutes", "0.1", "--seed", "5", "--json"]);
+    let again: serde_json::Value = serde_json::from_slice(&again.stdout).expect("the report is JSON");
+    assert_eq!(report["digest"], again["digest"], "two processes played the same match differently");
+}
+
+#[test]
+fn either_team_can_play_either_strategy() {
+    let arguments = ["run", "--minutes", "0.1", "--home", "ball_chasers", "--away", "hammerheads_2001"];
+    let output = touchline(&arguments);
+    assert!(text(&output.stdout).starts_with("Ball chasers"), "{}", text(&output.stdout));
+}
+
+#[test]
+fn without_a_display_the_match_is_played_headless_and_one_line_says_so() {
+    if cfg!(not(target_os = "linux")) {
+        return;
+    }
+    let output = touchline(&["play", "--minutes", "0.1"]);
+    assert!(output.status.success());
+    assert_eq!(text(&output.stderr).lines().count(), 1, "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("headless"));
+    assert!(text(&output.stdout).contains("CMU Hammerheads 2001"));
+}
+
+#[test]
+fn bad_input_ends_with_one_line_and_exit_code_2() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let broken = folder.path().join("broken.ron");
+    let (_, sound) = strategy_text("ball_chasers");
+    std::fs::write(&broken, sound.replace("go: \"search\"", "go: \"nowhere\"")).expect("the file is written");
+    let broken = broken.to_string_lossy().into_owned();
+    let calls: [&[&str]; 6] = [
+        &["run", "--home", &broken],
+        &["run", "--home", "nobody"],
+        &["run", "--match", "nothing"],
+        &["run", "--minutes", "NaN"],
+        &["play", "--pilot", "home:9"],
+        &["--assets", "/nowhere/at/all", "run"],
+    ];
+    for call in calls {
+        let output = touchline(call);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{call:?}: {message}");
+        assert_eq!(message.trim().lines().count(), 1, "{call:?}: {message}");
+        assert!(output.stdout.is_empty(), "{call:?} printed {}", text(&output.stdout));
+    }
+    let message = text(&touchline(calls[0]).stderr);
+    assert!(message.contains("broken.ron:") && message.contains("nowhere"), "{message}");
+}
+
+#[test]
+fn check_reads_all_assets() {
+    let output = touchline(&["check"]);
+    assert!(output.status.success(), "{}", text(&output.stdout));
+    assert!(text(&output.stdout).contains("all sound"));
+    assert_eq!(touchline(&["check", "Cargo.toml"]).status.code(), Some(2));
+}

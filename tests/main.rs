@@ -1,0 +1,9 @@
+//! Whole matches and bodies in motion: everything that needs more than one module. One binary, since each links Bevy.
+
+mod command_line;
+mod play;
+mod repeatability;
+mod rolling_bodies;
+mod schedule;
+mod strategies;
+mod support;
