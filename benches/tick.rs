@@ -1,1 +1,157 @@
-fn main() {}
+//! What a tick costs: Hammerheads against ball chasers, eight Cyes with trailers, real sensing, on one core.
+//!
+//! Prints two figures: simulated seconds per second, and the ratio of a whole tick to a bare rapier2d pipeline that steps the
+//! same bodies, joints and shapes at the same rate, from situations of the same match.
+
+use std::cell::Cell;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use bevy::ecs::system::SystemState;
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::*;
+use bevy_rapier2d::rapier::prelude::{
+    CCDSolver, DefaultBroadPhase, IntegrationParameters, IslandManager, NarrowPhase, PhysicsPipeline,
+};
+use criterion::{Criterion, criterion_group, criterion_main};
+use touchline::clock::TICK_HZ;
+use touchline::data::AssetFolder;
+use touchline::game::{Choice, Match, MatchPlan};
+
+/// Time spent and how often, summed over all samples.
+#[derive(Default)]
+struct Spent {
+    time: Cell<Duration>,
+    times: Cell<u64>,
+}
+
+impl Spent {
+    fn add(&self, time: Duration, times: u64) -> Duration {
+        self.time.set(self.time.get() + time);
+        self.times.set(self.times.get() + times);
+        time
+    }
+
+    fn mean_seconds(&self) -> f64 {
+        self.time.get().as_secs_f64() / self.times.get().max(1) as f64
+    }
+}
+
+fn kick_off() -> Match {
+    let assets = AssetFolder::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets"));
+    let plan = MatchPlan::read(&assets, &Choice { seed: 1, ..Choice::default() });
+    Match::new(&plan.unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// A match that starts anew when it is over.
+struct Season(Match);
+
+impl Season {
+    fn tick(&mut self) {
+        if self.0.is_over() {
+            self.0 = kick_off();
+        }
+        self.0.tick();
+    }
+}
+
+/// The physical world of a match, cut loose from it.
+#[derive(Clone)]
+struct BareWorld {
+    colliders: RapierContextColliders,
+    joints: RapierContextJoints,
+    bodies: RapierRigidBodySet,
+    islands: IslandManager,
+    broad_phase: DefaultBroadPhase,
+    narrow_phase: NarrowPhase,
+    ccd: CCDSolver,
+    parameters: IntegrationParameters,
+}
+
+impl BareWorld {
+    fn of(game: &mut Match) -> BareWorld {
+        type World<'a> = (
+            &'a RapierContextColliders,
+            &'a RapierContextJoints,
+            &'a RapierRigidBodySet,
+            &'a RapierContextSimulation,
+        );
+        let mut state: SystemState<Query<World>> = SystemState::new(game.world_mut());
+        let worlds = state.get(game.world()).expect("the query is sound");
+        let (colliders, joints, bodies, simulation) = worlds.single().expect("one physical world");
+        BareWorld {
+            colliders: colliders.clone(),
+            joints: joints.clone(),
+            bodies: bodies.clone(),
+            islands: simulation.islands.clone(),
+            broad_phase: simulation.broad_phase.clone(),
+            narrow_phase: simulation.narrow_phase.clone(),
+            ccd: simulation.ccd_solver.clone(),
+            parameters: simulation.integration_parameters,
+        }
+    }
+
+    /// Steps for half a second of match time after one step to warm up, and returns the time and the number of steps.
+    fn run(mut self) -> (Duration, u64) {
+        let steps = (TICK_HZ / 2.0) as u64;
+        let mut pipeline = PhysicsPipeline::new();
+        let mut step = || {
+            pipeline.step(
+                Vec2::ZERO,
+                &self.parameters,
+                &mut self.islands,
+                &mut self.broad_phase,
+                &mut self.narrow_phase,
+                &mut self.bodies.bodies,
+                &mut self.colliders.colliders,
+                &mut self.joints.impulse_joints,
+                &mut self.joints.multibody_joints,
+                &mut self.ccd,
+                &(),
+                &(),
+            );
+        };
+        step();
+        let started = Instant::now();
+        (0..steps).for_each(|_| step());
+        (started.elapsed(), steps)
+    }
+}
+
+fn ticks(criterion: &mut Criterion) {
+    let (whole, bare) = (Spent::default(), Spent::default());
+    let mut season = Season(kick_off());
+    criterion.bench_function("whole tick", |bencher| {
+        bencher.iter_custom(|times| {
+            let started = Instant::now();
+            (0..times).for_each(|_| season.tick());
+            whole.add(started.elapsed(), times)
+        });
+    });
+    let mut season = Season(kick_off());
+    let mut situations = Vec::new();
+    for tick in 0..60 * 60 * 10 {
+        season.tick();
+        if tick % 600 == 599 {
+            situations.push(BareWorld::of(&mut season.0));
+        }
+    }
+    let mut next = situations.iter().cycle();
+    criterion.bench_function("bare rapier step", |bencher| {
+        bencher.iter_custom(|times| {
+            let (mut time, mut steps) = (Duration::ZERO, 0);
+            while steps < times {
+                let (more, run) = next.next().expect("there are situations").clone().run();
+                (time, steps) = (time + more, steps + run);
+            }
+            bare.add(time, steps);
+            time.mul_f64(times as f64 / steps as f64)
+        });
+    });
+    let (tick, step) = (whole.mean_seconds(), bare.mean_seconds());
+    println!("simulated seconds per second: {:.0}", 1.0 / (tick * f64::from(TICK_HZ)));
+    println!("whole tick {:.2} µs / bare rapier step {:.2} µs = {:.2}", tick * 1e6, step * 1e6, tick / step);
+}
+
+criterion_group!(benches, ticks);
+criterion_main!(benches);

@@ -81,9 +81,7 @@ fn short_matches_have_goals_and_nobody_leaves_or_hangs() {
     assert!(with_goals >= 2, "goals in {with_goals} of 4 matches only");
 }
 
-/// The acceptance run: 20 whole matches. Minutes long, so it is asked for by name.
 #[test]
-#[ignore = "plays 20 whole matches"]
 fn whole_matches_have_goals_and_nobody_leaves_or_hangs() {
     let mut with_goals = 0;
     for seed in 1..=20 {
