@@ -1,0 +1,282 @@
+//! From a strategy file to a strategy: looks every name up, checks every number, and numbers the memories of stateful
+//! operators. The first fault is reported with its place in the file.
+
+mod words;
+
+use std::collections::BTreeMap;
+
+use bevy::prelude::Vec2;
+
+use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile};
+use super::{
+    Assemblage, Combination, Machine, Part, RoleSpec, State, Strategy, SubRole, Term, Transition, Turn,
+};
+use super::language::Feature;
+use crate::data::{DataError, Field, Source, no_such};
+use crate::geometry::Zone;
+
+type Result<T> = std::result::Result<T, DataError>;
+
+pub(super) fn resolve(file: &StrategyFile, source: &Source) -> Result<Strategy> {
+    let mut resolver = Resolver { file, source, slots: 0, open: Vec::new() };
+    let root = Field::root();
+    resolver.check_named_pieces()?;
+    let assemblages = (file.assemblages.iter())
+        .map(|(name, assemblage)| resolver.assemblage(name, assemblage, &root.key("assemblages").key(name)))
+        .collect::<Result<Vec<_>>>()?;
+    let machines = (file.machines.iter())
+        .map(|(name, machine)| resolver.machine(name, machine, &root.key("machines").key(name)))
+        .collect::<Result<Vec<_>>>()?;
+    let roles = (file.roles.iter())
+        .map(|(name, role)| resolver.role(name, role, &root.key("roles").key(name)))
+        .collect::<Result<Vec<_>>>()?;
+    let players = resolver.players(&root.key("players"))?;
+    resolver.kick_off(players.len())?;
+    Ok(Strategy {
+        name: file.name.clone(),
+        description: file.description.clone(),
+        robot_kinds: file.robot_kinds.clone(),
+        roles,
+        players,
+        kick_off: file.kick_off.clone(),
+        machines,
+        assemblages,
+        slots: resolver.slots,
+    })
+}
+
+struct Resolver<'a> {
+    file: &'a StrategyFile,
+    source: &'a Source,
+    slots: usize,
+    /// Names that are being looked up, to notice one that is defined by itself.
+    open: Vec<String>,
+}
+
+impl Resolver<'_> {
+    fn fault<T>(&self, at: &Field, message: impl Into<String>) -> Result<T> {
+        Err(self.source.error_at(at, message))
+    }
+
+    /// The place of a name among the keys of a map.
+    fn index<T>(&self, map: &BTreeMap<String, T>, what: &str, name: &str, at: &Field) -> Result<usize> {
+        match map.keys().position(|key| key == name) {
+            Some(index) => Ok(index),
+            None => self.fault(at, unknown(map, what, name)),
+        }
+    }
+
+    fn finite(&self, value: f32, at: &Field) -> Result<()> {
+        self.source.finite(at, value).map(drop)
+    }
+
+    fn not_negative(&self, value: f32, at: &Field) -> Result<()> {
+        if value.is_finite() && value >= 0.0 {
+            return Ok(());
+        }
+        self.fault(at, format!("must be a number of at least 0, not {value}"))
+    }
+
+    fn share(&self, value: f32, at: &Field) -> Result<()> {
+        if (0.0..=1.0).contains(&value) {
+            return Ok(());
+        }
+        self.fault(at, format!("must lie between 0 and 1, not {value}"))
+    }
+
+    fn finite_point(&self, point: Vec2, at: &Field) -> Result<()> {
+        if point.is_finite() { Ok(()) } else { self.fault(at, "needs finite coordinates") }
+    }
+
+    fn finite_zone(&self, zone: Zone, at: &Field) -> Result<()> {
+        if zone.is_finite() { Ok(()) } else { self.fault(at, "needs finite corners, min below max") }
+    }
+
+    fn slot(&mut self) -> usize {
+        self.slots += 1;
+        self.slots - 1
+    }
+
+    /// Checks what is named but perhaps never used.
+    fn check_named_pieces(&mut self) -> Result<()> {
+        let (file, root) = (self.file, Field::root());
+        for (name, zone) in &file.zones {
+            self.finite_zone(*zone, &root.key("zones").key(name))?;
+        }
+        for (name, point) in &file.percepts {
+            self.point(&mut point.clone(), &root.key("percepts").key(name))?;
+        }
+        for (name, points) in &file.point_sets {
+            self.points(&mut points.clone(), &root.key("point_sets").key(name))?;
+        }
+        for (name, feature) in &file.features {
+            self.feature(&mut feature.clone(), &root.key("features").key(name))?;
+        }
+        for (name, schema) in &file.schemas {
+            self.schema(&mut schema.clone(), &root.key("schemas").key(name))?;
+        }
+        self.slots = 0;
+        Ok(())
+    }
+
+    /// What a name stands for, with the names in it replaced in turn; a name that is defined by itself is a fault.
+    fn expand<T: Clone>(
+        &mut self,
+        map: &BTreeMap<String, T>,
+        what: &str,
+        name: &str,
+        at: &Field,
+        resolve: impl FnOnce(&mut Self, &mut T) -> Result<()>,
+    ) -> Result<T> {
+        let Some(definition) = map.get(name) else {
+            return self.fault(at, unknown(map, what, name));
+        };
+        let key = format!("{what} {name}");
+        if self.open.contains(&key) {
+            return self.fault(at, format!("`{name}` is defined by itself"));
+        }
+        self.open.push(key);
+        let mut expanded = definition.clone();
+        resolve(self, &mut expanded)?;
+        self.open.pop();
+        Ok(expanded)
+    }
+
+    fn resolved_feature(&mut self, feature: &Feature, at: &Field) -> Result<Feature> {
+        let mut resolved = feature.clone();
+        self.feature(&mut resolved, at)?;
+        Ok(resolved)
+    }
+
+    fn assemblage(&mut self, name: &str, file: &AssemblageFile, at: &Field) -> Result<Assemblage> {
+        let (combination, terms, at) = match file {
+            AssemblageFile::WeightedSum(terms) => (Combination::WeightedSum, terms, at.key("WeightedSum")),
+            AssemblageFile::WinnerTakeAll(terms) => {
+                (Combination::WinnerTakeAll, terms, at.key("WinnerTakeAll"))
+            }
+        };
+        let terms = (terms.iter().enumerate())
+            .map(|(i, (weight, schema))| self.term(*weight, schema, &at.index(i)))
+            .collect::<Result<_>>()?;
+        Ok(Assemblage { name: name.into(), combination, terms })
+    }
+
+    fn term(&mut self, weight: f32, name: &str, at: &Field) -> Result<Term> {
+        self.finite(weight, &at.index(0))?;
+        let schema = self.expand(&self.file.schemas, "schema", name, &at.index(1), |s, schema| {
+            s.schema(schema, &Field::root().key("schemas").key(name))
+        })?;
+        Ok(Term { weight, name: name.into(), schema })
+    }
+
+    fn machine(&mut self, name: &str, file: &MachineFile, at: &Field) -> Result<Machine> {
+        let start = self.index(&file.states, "state", &file.start, &at.key("start"))?;
+        let states = (file.states.iter())
+            .map(|(name, state)| self.state(name, state, file, &at.key("states").key(name)))
+            .collect::<Result<_>>()?;
+        Ok(Machine { name: name.into(), start, states })
+    }
+
+    fn state(&mut self, name: &str, file: &StateFile, machine: &MachineFile, at: &Field) -> Result<State> {
+        let assemblage = match &file.run {
+            Some(run) => Some(self.index(&self.file.assemblages, "assemblage", run, &at.key("run"))?),
+            None => None,
+        };
+        let turn = match &file.turn {
+            TurnFile::Stay => Turn::Stay,
+            TurnFile::Face(point) => {
+                let mut point = point.clone();
+                self.point(&mut point, &at.key("turn"))?;
+                Turn::Face(point)
+            }
+            TurnFile::Spin(rate) => {
+                self.finite(*rate, &at.key("turn"))?;
+                Turn::Spin(rate.to_radians())
+            }
+        };
+        let mut transitions = Vec::with_capacity(file.on.len());
+        for (i, transition) in file.on.iter().enumerate() {
+            let at = at.key("on").index(i);
+            transitions.push(Transition {
+                when: self.resolved_feature(&transition.when, &at.key("when"))?,
+                go: self.index(&machine.states, "state", &transition.go, &at.key("go"))?,
+                label: transition.when.to_string(),
+            });
+        }
+        self.share(file.speed, &at.key("speed"))?;
+        Ok(State {
+            name: name.into(),
+            assemblage,
+            speed: file.speed,
+            reverse: file.reverse,
+            turn,
+            transitions,
+        })
+    }
+
+    fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Result<RoleSpec> {
+        let (tag, part) = match file {
+            RoleFile::Plays { tag, machine, danger_zone, homebases } => {
+                let machine = self.index(&self.file.machines, "machine", machine, &at.key("machine"))?;
+                self.finite_zone(*danger_zone, &at.key("danger_zone"))?;
+                if homebases.is_empty() || homebases.iter().any(|home| !home.is_finite()) {
+                    return self
+                        .fault(&at.key("homebases"), "needs at least one homebase, all of them finite");
+                }
+                (tag, Part::Plays { machine, danger_zone: *danger_zone, homebases: homebases.clone() })
+            }
+            RoleFile::ActsAs { tag, sub_roles } => {
+                let at = at.key("sub_roles");
+                let mut list = Vec::with_capacity(sub_roles.len());
+                for (i, sub_role) in sub_roles.iter().enumerate() {
+                    let at = at.index(i);
+                    let role = self.index(&self.file.roles, "role", &sub_role.role, &at.key("role"))?;
+                    if !matches!(self.file.roles.get(&sub_role.role), Some(RoleFile::Plays { .. })) {
+                        return self.fault(&at.key("role"), "a sub-role must be a role that plays a machine");
+                    }
+                    list.push(SubRole {
+                        when: self.resolved_feature(&sub_role.when, &at.key("when"))?,
+                        role,
+                    });
+                }
+                if list.is_empty() {
+                    return self.fault(&at, "needs at least one sub-role");
+                }
+                (tag, Part::ActsAs(list))
+            }
+        };
+        Ok(RoleSpec { name: name.into(), tag: tag.clone(), part })
+    }
+
+    fn players(&self, at: &Field) -> Result<Vec<usize>> {
+        if self.file.players.is_empty() || self.file.players.len() > MAX_PLAYERS {
+            return self.fault(
+                at,
+                format!("a team has 1 to {MAX_PLAYERS} players, not {}", self.file.players.len()),
+            );
+        }
+        (self.file.players.iter().enumerate())
+            .map(|(i, role)| self.index(&self.file.roles, "role", role, &at.index(i)))
+            .collect()
+    }
+
+    fn kick_off(&self, players: usize) -> Result<()> {
+        for (side, places) in [("ours", &self.file.kick_off.ours), ("theirs", &self.file.kick_off.theirs)] {
+            let at = Field::root().key("kick_off").key(side);
+            if places.len() != players {
+                return self.fault(&at, format!("{} places for {players} players", places.len()));
+            }
+            if let Some(i) = places.iter().position(|place| !(place.is_finite() && place.x <= 0.0)) {
+                return self.fault(&at.index(i), "must lie in the team's own half: x of 0 at most");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Robots that one team can field.
+const MAX_PLAYERS: usize = 8;
+
+fn unknown<T>(map: &BTreeMap<String, T>, what: &str, name: &str) -> String {
+    no_such(what, name, map.keys())
+}
