@@ -20,6 +20,8 @@ pub mod drive;
 pub mod game;
 pub mod geometry;
 pub mod ids;
+#[cfg(feature = "window")]
+pub mod inspector;
 pub mod motor;
 pub mod physics;
 pub mod pilot;

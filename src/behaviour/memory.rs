@@ -1,4 +1,7 @@
 //! What the stateful operators of a strategy remember, one cell each, numbered when the strategy was loaded.
+//!
+//! A state asks only its own operators. One that was passed over for a decision or more cannot tell what was true meanwhile:
+//! those that watch something without a break start anew, those that keep times of their own go on.
 
 use bevy::prelude::*;
 
@@ -7,7 +10,16 @@ use crate::motor::{DockLatch, Hold, Hysteresis, Noise, Remembered, Watchdog};
 /// The memories of one robot's operators.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Memory {
-    cells: Vec<Cell>,
+    cells: Vec<Kept>,
+    /// Counts the decisions.
+    decision: u64,
+}
+
+/// A cell and the decision in which its operator was last asked.
+#[derive(Clone, Debug, Default)]
+struct Kept {
+    asked: u64,
+    cell: Cell,
 }
 
 /// One operator's memory; empty until the operator was first asked.
@@ -40,17 +52,31 @@ impl Lasting {
 
 impl Memory {
     pub fn new(slots: usize) -> Memory {
-        Memory { cells: vec![Cell::Empty; slots] }
+        Memory { cells: vec![Kept::default(); slots], decision: 0 }
+    }
+
+    /// To be called once a decision, before any operator is asked.
+    pub fn begin_decision(&mut self) {
+        self.decision += 1;
     }
 }
 
+/// What becomes of an operator's memory when a decision went by without asking it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum AfterGap {
+    GoesOn,
+    StartsAnew,
+}
+
 macro_rules! cells {
-    ($($method:ident: $kind:ident),*) => {
+    ($($method:ident: $kind:ident $after_gap:ident),*) => {
         impl Memory {
             $(
                 pub fn $method(&mut self, slot: usize) -> &mut $kind {
-                    let cell = &mut self.cells[slot];
-                    if !matches!(cell, Cell::$kind(_)) {
+                    let Kept { asked, cell } = &mut self.cells[slot];
+                    let gap = self.decision - std::mem::replace(asked, self.decision) > 1;
+                    let stale = gap && AfterGap::$after_gap == AfterGap::StartsAnew;
+                    if stale || !matches!(cell, Cell::$kind(_)) {
                         *cell = Cell::$kind(Default::default());
                     }
                     match cell {
@@ -64,13 +90,13 @@ macro_rules! cells {
 }
 
 cells!(
-    remembered: Remembered,
-    hold: Hold,
-    lasting: Lasting,
-    watchdog: Watchdog,
-    hysteresis: Hysteresis,
-    dock_latch: DockLatch,
-    noise: Noise
+    remembered: Remembered GoesOn,
+    hold: Hold GoesOn,
+    lasting: Lasting StartsAnew,
+    watchdog: Watchdog StartsAnew,
+    hysteresis: Hysteresis StartsAnew,
+    dock_latch: DockLatch StartsAnew,
+    noise: Noise GoesOn
 );
 
 #[cfg(test)]
@@ -93,5 +119,28 @@ mod tests {
         assert!(memory.hold(1).update(true, 0.0, 1.0));
         assert!(memory.hold(1).update(false, 0.5, 1.0));
         assert!(!memory.hold(0).update(false, 0.5, 1.0));
+    }
+
+    #[test]
+    fn what_must_last_without_a_break_starts_anew_when_a_decision_did_not_ask_it() {
+        let mut memory = Memory::new(3);
+        let mut ask = |decisions: u32, now: f32| {
+            (0..decisions).for_each(|_| memory.begin_decision());
+            let lasting = memory.lasting(0).update(true, now, 1.0);
+            let watchdog = memory.watchdog(1).update(false, now, 1.0, 1.0);
+            (lasting, watchdog, memory.hysteresis(2).update(0.5 + now, 1.0, 2.0))
+        };
+        assert_eq!(ask(1, 0.0), (false, false, true));
+        assert_eq!(ask(1, 1.0), (true, true, true), "asked at every decision, they go on");
+        assert_eq!(ask(2, 1.2), (false, false, false), "passed over once, they start anew");
+        assert_eq!(ask(0, 2.2), (true, true, false), "asked twice in a decision, they go on");
+    }
+
+    #[test]
+    fn what_keeps_times_of_its_own_goes_on_when_a_decision_did_not_ask_it() {
+        let mut memory = Memory::new(1);
+        assert!(memory.hold(0).update(true, 0.0, 1.0));
+        (0..5).for_each(|_| memory.begin_decision());
+        assert!(memory.hold(0).update(false, 0.9, 1.0));
     }
 }

@@ -2,8 +2,14 @@
 //!
 //! At most one transition a decision, the first whose feature holds, as in Clay.
 
+#[cfg(test)]
+pub(crate) mod fixture;
 mod memory;
 mod perception;
+#[cfg(test)]
+mod perception_tests;
+#[cfg(test)]
+mod tests;
 
 use std::collections::VecDeque;
 
@@ -22,6 +28,7 @@ use crate::referee::OffPitch;
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::Odometry;
+use crate::strategy::language::Feature;
 use crate::strategy::{Part, RoleSpec, Strategies, Strategy};
 use crate::teamwork::Role;
 use crate::world_model::WorldModel;
@@ -156,18 +163,15 @@ fn choose_activities(
             continue;
         }
         let strategy = strategies.of(mind.id.team);
-        let senses = perception(
-            (*mind.id, mind.robot, mind.model, mind.odometry),
-            &activity,
-            strategy,
-            (&clock, &pitch, &ball),
-        );
+        let senses = |activity: &Activity| {
+            let robot = (*mind.id, mind.robot, mind.model, mind.odometry);
+            perception(robot, activity, strategy, (&clock, &pitch, &ball))
+        };
         let memory = &mut *mind.memory;
-        choose_sub_role(&senses, strategy, role.0, memory, &mut activity, clock.tick);
+        memory.begin_decision();
+        choose_sub_role(&senses(&activity), strategy, role.0, memory, &mut activity, clock.tick);
         choose_homebase(mind.model.pose.position, strategy, &mut activity);
-        let senses =
-            Perception { danger_zone: activity.danger_zone(strategy), homebase: activity.homebase, ..senses };
-        take_transition(&senses, strategy, memory, &mut activity, clock.tick);
+        take_transition(&senses(&activity), strategy, memory, &mut activity, clock.tick);
     }
 }
 
@@ -183,9 +187,9 @@ fn choose_sub_role(
     let wanted = match &spec.part {
         Part::Plays { .. } => role,
         Part::ActsAs(sub_roles) => {
-            let fits = sub_roles.iter().filter(|sub_role| senses.holds(&sub_role.when, memory));
-            match fits.map(|sub_role| sub_role.role).next() {
-                Some(role) => role,
+            let fits = first_that_holds(sub_roles.iter().map(|sub_role| &sub_role.when), senses, memory);
+            match fits {
+                Some(index) => sub_roles[index].role,
                 None if sub_roles.iter().any(|sub_role| sub_role.role == activity.acting_as) => return,
                 None => sub_roles[0].role,
             }
@@ -201,6 +205,18 @@ fn choose_sub_role(
     activity.since = tick;
     let after = format!("{} as {}", machine.states[activity.state].name, strategy.roles[wanted].name);
     activity.note(tick, &before, &after, "sub-role");
+}
+
+/// The place of the first feature that holds. All are asked, so that memories do not depend on their order.
+fn first_that_holds<'a>(
+    features: impl Iterator<Item = &'a Feature>,
+    senses: &Perception,
+    memory: &mut Memory,
+) -> Option<usize> {
+    features.enumerate().fold(None, |first, (index, feature)| {
+        let holds = senses.holds(feature, memory);
+        first.or(holds.then_some(index))
+    })
 }
 
 /// A role with several homebases takes the one that is nearest to the robot, with a little loyalty to the present one.
@@ -223,10 +239,9 @@ fn take_transition(
 ) {
     let machine = &strategy.machines[activity.machine(strategy)];
     let state = &machine.states[activity.state];
-    let Some(transition) = state.transitions.iter().find(|candidate| senses.holds(&candidate.when, memory))
-    else {
-        return;
-    };
+    let features = state.transitions.iter().map(|transition| &transition.when);
+    let Some(index) = first_that_holds(features, senses, memory) else { return };
+    let transition = &state.transitions[index];
     activity.state = transition.go;
     activity.since = tick;
     activity.note(tick, &state.name, &machine.states[transition.go].name, &transition.label);

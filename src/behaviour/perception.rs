@@ -38,6 +38,9 @@ pub struct Perception<'a> {
     pub ball_radius: f32,
 }
 
+/// How far ahead a wall is, at the least, for a robot that believes itself beyond it, m.
+const MISTAKEN: f32 = 0.01;
+
 impl Perception<'_> {
     fn own(&self) -> Pose {
         self.model.pose
@@ -96,7 +99,8 @@ impl Perception<'_> {
             Points::Teammates => self.model.of_team(self.team).collect(),
             Points::Opponents => self.model.of_team(self.team.opponent()).collect(),
             Points::Walls => {
-                let half = self.pitch.half_size();
+                // A robot that believes itself beyond a wall is mistaken, and the wall is still between it and the world.
+                let half = self.pitch.half_size().max(own.abs() + MISTAKEN);
                 let feet = [(half.x, own.y), (-half.x, own.y), (own.x, half.y), (own.x, -half.y)];
                 feet.into_iter().map(Vec2::from).collect()
             }
@@ -147,8 +151,8 @@ impl Perception<'_> {
         match feature {
             Feature::Always => true,
             Feature::Not(what) => !self.holds(what, memory),
-            Feature::All(list) => list.iter().fold(true, |all, part| self.holds(part, memory) && all),
-            Feature::Any(list) => list.iter().fold(false, |any, part| self.holds(part, memory) || any),
+            Feature::All(list) => self.count(list, memory) == list.len(),
+            Feature::Any(list) => self.count(list, memory) > 0,
             Feature::Known(point) => self.point(point, memory).is_some(),
             Feature::BallSeenWithin(seconds) => self.ball_age.is_some_and(|age| age <= *seconds),
             Feature::Near { a, b, radius } => {
@@ -167,7 +171,8 @@ impl Perception<'_> {
                 self.point(point, memory).is_some_and(|point| self.zone(zone).contains(point))
             }
             Feature::Facing { point, within } => self.relative(point, memory).is_some_and(|offset| {
-                wrap_angle(angle(offset) - self.own().heading).abs() <= within.to_radians()
+                let off = wrap_angle(angle(offset) - self.own().heading).abs();
+                offset != Vec2::ZERO && off <= within.to_radians()
             }),
             Feature::BehindBall { toward, within } => {
                 let ball = self.relative(&Point::Ball, memory);
@@ -195,6 +200,11 @@ impl Perception<'_> {
             }
             Feature::Is(name) => unreachable!("the name {name} was replaced when the strategy was loaded"),
         }
+    }
+
+    /// How many statements hold.
+    fn count(&self, list: &[Feature], memory: &mut Memory) -> usize {
+        list.iter().filter(|part| self.holds(part, memory)).count()
     }
 
     fn distance(&self, a: &Point, b: &Point, memory: &mut Memory) -> Option<f32> {

@@ -18,6 +18,7 @@ pub enum Kind {
 }
 
 impl Kind {
+    #[cfg(test)]
     pub const ALL: [Kind; 5] =
         [Kind::Attraction, Kind::Repulsion, Kind::Detour, Kind::Handling, Kind::Unguided];
 

@@ -16,10 +16,15 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// How far the belief is off, m.
-    pub fn error(&self) -> Option<f32> {
-        Some(self.belief?.position.distance(self.truth?.1))
+    /// The believed and the true place, where there is one, m.
+    pub fn places(&self) -> (Option<Vec2>, Option<Vec2>) {
+        (self.belief.map(|belief| belief.position), self.truth.map(|(_, at)| at))
     }
+}
+
+/// How far a belief is off: the distance between two places where both are known, m.
+pub fn error((believed, truth): (Option<Vec2>, Option<Vec2>)) -> Option<f32> {
+    Some(believed?.distance(truth?))
 }
 
 /// The pairs of a match's robots.
@@ -31,8 +36,7 @@ const GHOST: f32 = 1.5;
 /// Pairs beliefs with the truth, nearest first, each at most once, both in one frame. True robots come first and in their
 /// given order, then the beliefs that stand for nothing.
 pub fn pair(beliefs: &[RobotBelief], truth: &[(RobotId, Vec2)]) -> Pairs {
-    let mut pairs: Pairs =
-        truth.iter().map(|robot| Pair { belief: None, truth: Some(*robot) }).collect();
+    let mut pairs: Pairs = truth.iter().map(|robot| Pair { belief: None, truth: Some(*robot) }).collect();
     let mut free: SmallVec<[RobotBelief; 16]> = beliefs.iter().copied().collect();
     while let Some((robot, belief)) = nearest(&pairs, &free) {
         pairs[robot].belief = Some(free.remove(belief));
@@ -74,19 +78,17 @@ mod tests {
     fn the_nearest_of_the_team_is_meant() {
         let truth = [robot(Team::Home, 1, 0.0), robot(Team::Home, 2, 1.0), robot(Team::Away, 0, 0.3)];
         let pairs = pair(&[belief(Team::Home, 0.4), belief(Team::Home, 0.9)], &truth);
-        let errors: Vec<_> = pairs.iter().map(|pair| pair.error().map(|e| (100.0 * e).round())).collect();
+        let errors: Vec<_> =
+            pairs.iter().map(|pair| error(pair.places()).map(|e| (100.0 * e).round())).collect();
         assert_eq!(errors, [Some(40.0), Some(10.0), None]);
     }
 
     #[test]
     fn two_beliefs_do_not_share_a_robot() {
-        let pairs = pair(
-            &[belief(Team::Away, 0.2), belief(Team::Away, 0.1)],
-            &[robot(Team::Away, 3, 0.0)],
-        );
+        let pairs = pair(&[belief(Team::Away, 0.2), belief(Team::Away, 0.1)], &[robot(Team::Away, 3, 0.0)]);
         assert_eq!(pairs.len(), 2);
-        assert!(pairs[0].error().is_some_and(|error| (error - 0.1).abs() < 1e-6));
-        assert!(pairs[1].truth.is_none() && pairs[1].error().is_none());
+        assert!(error(pairs[0].places()).is_some_and(|error| (error - 0.1).abs() < 1e-6));
+        assert!(pairs[1].truth.is_none() && error(pairs[1].places()).is_none());
     }
 
     #[test]

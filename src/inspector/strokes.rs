@@ -16,6 +16,19 @@ pub fn dashed_circle(centre: Vec2, radius: f32, dash: f32) -> impl Iterator<Item
     })
 }
 
+/// Chords of an arc from the angle `from` to the angle `to`: dashes of about `dash` in length, with gaps as long.
+pub fn dashed_arc(
+    centre: Vec2,
+    radius: f32,
+    (from, to): (f32, f32),
+    dash: f32,
+) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let length = radius * (to - from).abs();
+    let pieces = (length / dash.max(f32::EPSILON)).clamp(1.0, 399.0) as u32 | 1;
+    let at = move |piece: u32| centre + radius * unit(from + (to - from) * piece as f32 / pieces as f32);
+    (0..pieces).step_by(2).map(move |piece| (at(piece), at(piece + 1)))
+}
+
 /// Dashes of about `dash` in length from one point to another, beginning and ending with one.
 pub fn dashed_line(from: Vec2, to: Vec2, dash: f32) -> impl Iterator<Item = (Vec2, Vec2)> {
     let pieces = (from.distance(to) / dash.max(f32::EPSILON)).clamp(1.0, 199.0) as u32 | 1;
@@ -76,6 +89,14 @@ mod tests {
         assert_eq!(dashes.first().map(|dash| dash.0), Some(Vec2::ZERO));
         assert!(dashes.last().is_some_and(|dash| dash.1.distance(Vec2::X) < 1e-6));
         assert_eq!(dashed_line(Vec2::ZERO, Vec2::ZERO, 0.1).count(), 1);
+    }
+
+    #[test]
+    fn a_dashed_arc_lies_between_its_two_angles() {
+        let dashes: Vec<_> = dashed_arc(Vec2::ZERO, 2.0, (0.0, PI / 2.0), 0.2).collect();
+        assert_eq!(dashes.len(), 8);
+        assert!(dashes[0].0.distance(Vec2::new(2.0, 0.0)) < 1e-5);
+        assert!(dashes[7].1.distance(Vec2::new(0.0, 2.0)) < 1e-5);
     }
 
     #[test]

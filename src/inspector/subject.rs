@@ -27,6 +27,7 @@ use crate::world_model::WorldModel;
 /// Everything that there is to see of a robot.
 #[derive(QueryData)]
 pub struct Subject {
+    pub entity: Entity,
     pub id: &'static RobotId,
     pub robot: &'static Robot,
     pub role: &'static Role,
@@ -52,7 +53,7 @@ pub struct Scene<'w, 's> {
     pub pitch: Res<'w, Pitch>,
     pub selected: Res<'w, Selected>,
     subjects: Query<'w, 's, Subject>,
-    ball: Query<'w, 's, (&'static Ball, &'static Pose, &'static Twist)>,
+    ball: Query<'w, 's, (Entity, &'static Ball, &'static Pose, &'static Twist)>,
 }
 
 /// The true ball, in the team frame of the robot that is looked at.
@@ -71,6 +72,7 @@ pub struct Looked<'a> {
     pub state: &'a MatchState,
     pub clock: Clock,
     pub ends: Attacking,
+    /// Where it truly is, in its team frame.
     pub pose: Pose,
     pub ball: Option<TrueBall>,
     /// The other robots on the pitch, by id.
@@ -80,12 +82,17 @@ pub struct Looked<'a> {
 impl Scene<'_, '_> {
     /// What there is to see of the selected robot; none without a selection, or where the robot has gone.
     pub fn looked(&self) -> Option<Looked<'_>> {
+        self.looked_with(|_, pose| pose)
+    }
+
+    /// The same, with every body where `placed` puts it, in the pitch frame.
+    pub fn looked_with(&self, placed: impl Fn(Entity, Pose) -> Pose) -> Option<Looked<'_>> {
         let id = self.selected.0?;
         let of = self.subjects.iter().find(|subject| *subject.id == id)?;
         let ends = self.state.attacking(id.team);
         let mut others: SmallVec<[(RobotId, Vec2); 16]> = (self.subjects.iter())
             .filter(|other| *other.id != id && !other.off_pitch)
-            .map(|other| (*other.id, ends.turn(other.pose.position)))
+            .map(|other| (*other.id, ends.turn(placed(other.entity, *other.pose).position)))
             .collect();
         others.sort_unstable_by_key(|(id, _)| *id);
         Some(Looked {
@@ -94,9 +101,9 @@ impl Scene<'_, '_> {
             state: &self.state,
             clock: *self.clock,
             ends,
-            pose: ends.turn_pose(*of.pose),
-            ball: self.ball.iter().next().map(|(ball, pose, twist)| TrueBall {
-                position: ends.turn(pose.position),
+            pose: ends.turn_pose(placed(of.entity, *of.pose)),
+            ball: self.ball.iter().next().map(|(entity, ball, pose, twist)| TrueBall {
+                position: ends.turn(placed(entity, *pose).position),
                 velocity: ends.turn(twist.linear),
                 radius: ball.kind.radius,
             }),

@@ -11,26 +11,25 @@ pub const COLUMN: f32 = 47.0;
 /// A row: the name, cut off where the figures begin, and the figures from left to right, aligned to the right.
 pub fn row(ui: &mut Ui, name: impl Into<WidgetText>, figures: &[&str]) -> Response {
     let (rect, response) = space(ui);
-    let room = rect.width() - COLUMN * figures.len() as f32;
-    let cut = paint_name(ui, rect, name.into(), room);
+    paint_row(ui, rect, name, figures, COLUMN);
+    response
+}
+
+/// Paints a row where there is room for it already, with columns of this width.
+pub fn paint_row(ui: &Ui, rect: Rect, name: impl Into<WidgetText>, figures: &[impl AsRef<str>], column: f32) {
+    paint_name(ui, rect, name.into(), rect.width() - column * figures.len() as f32);
     let colour = ui.visuals().text_color();
     for (place, figure) in figures.iter().rev().enumerate() {
-        paint_figure(ui, rect.right() - COLUMN * place as f32, rect, figure, colour);
-    }
-    match cut {
-        Some(whole) => response.on_hover_text(whole),
-        None => response,
+        paint_figure(ui, rect.right() - column * place as f32, rect, figure.as_ref(), colour);
     }
 }
 
-/// The heading of a table: words over columns, given as the number of columns that each spans.
-pub fn heading(ui: &mut Ui, words: &[(&str, usize)]) {
+/// The heading of a table: a word over each column.
+pub fn heading(ui: &mut Ui, words: &[&str]) {
     let (rect, _) = space(ui);
     let colour = ui.visuals().weak_text_color();
-    let mut right = rect.right();
-    for (word, columns) in words.iter().rev() {
-        paint_figure(ui, right, rect, word, colour);
-        right -= COLUMN * *columns as f32;
+    for (place, word) in words.iter().rev().enumerate() {
+        paint_figure(ui, rect.right() - COLUMN * place as f32, rect, word, colour);
     }
 }
 
@@ -48,7 +47,7 @@ pub fn line(ui: &mut Ui, name: &str, text: impl Into<WidgetText>) -> Response {
 }
 
 fn space(ui: &mut Ui) -> (Rect, Response) {
-    let height = ui.text_style_height(&TextStyle::Body) + 3.0;
+    let height = ui.text_style_height(&TextStyle::Body) + 2.0;
     ui.allocate_exact_size(egui::vec2(ui.available_width(), height), Sense::hover())
 }
 

@@ -1,23 +1,17 @@
-//! The inspector's colours, one meaning each, on the pitch and in the panel alike.
+//! The inspector's colours beside those of the view, one meaning each, on the pitch and in the panel alike.
 
 use bevy::prelude::*;
-use bevy_egui::egui;
 
 use super::kinds::Kind;
-use crate::ids::Team;
+pub use crate::view::colours::{egui, team};
 
 /// What the robot's sensors said.
 pub const SENSED: Color = Color::srgb(1.0, 1.0, 1.0);
 /// What became of all schemas together.
 pub const SUM: Color = Color::srgb(1.0, 1.0, 1.0);
 
-/// The colour of a team's markers, of what it believes, and of its zones.
-pub fn team(team: Team) -> Color {
-    match team {
-        Team::Home => Color::srgb_u8(0xD6, 0x40, 0x9F),
-        Team::Away => Color::srgb_u8(0x22, 0xB8, 0xCF),
-    }
-}
+/// A weight that is not the file's.
+pub const CHANGED: Color = Color::srgb(0.45, 0.72, 1.0);
 
 /// The colour of a schema's vector: green draws, red repels, ambers do neither.
 pub fn kind(kind: Kind) -> Color {
@@ -30,15 +24,10 @@ pub fn kind(kind: Kind) -> Color {
     }
 }
 
-/// The same colour for egui.
-pub fn egui(colour: Color) -> egui::Color32 {
-    let [r, g, b, a] = colour.to_srgba().to_u8_array();
-    egui::Color32::from_rgba_unmultiplied(r, g, b, a)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ids::Team;
 
     #[test]
     fn every_kind_and_team_has_a_colour_of_its_own() {

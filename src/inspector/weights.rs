@@ -110,8 +110,7 @@ fn explained(file: &Strategy, now: &Strategy, team: Team, tuned: &[(Place, f32)]
                 && file.terms.iter().zip(&now.terms).enumerate().all(|(term, (file, now))| {
                     let place = Place { team, assemblage, term };
                     let asked_for = || tuned.iter().any(|(known, _)| *known == place);
-                    file.schema == now.schema
-                        && ((file.weight - now.weight).abs() <= SAME || asked_for())
+                    file.schema == now.schema && ((file.weight - now.weight).abs() <= SAME || asked_for())
                 })
         })
 }

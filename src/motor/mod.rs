@@ -13,6 +13,8 @@ mod noise;
 mod operators;
 mod schemas;
 mod swirl;
+#[cfg(test)]
+mod tests;
 
 use bevy::prelude::*;
 
@@ -150,7 +152,7 @@ fn intend(
     match &state.turn {
         Turn::Stay => SteeringIntent::Stop,
         Turn::Spin(rate) => SteeringIntent::Spin(*rate),
-        Turn::Face(point) => match senses.relative(point, memory) {
+        Turn::Face(point) => match senses.relative(point, memory).filter(|offset| *offset != Vec2::ZERO) {
             Some(offset) => SteeringIntent::Steer { heading: turned(offset), speed: 0.0 },
             None => SteeringIntent::Stop,
         },

@@ -1,6 +1,9 @@
 //! The Record stage: the digest of all that happens, and figures about a match. Reads everything, changes nothing else; the
 //! clock moves on at its end.
 
+#[cfg(test)]
+mod tests;
+
 use bevy::prelude::*;
 use serde::Serialize;
 use xxhash_rust::xxh3::xxh3_64_with_seed;

@@ -1,6 +1,9 @@
 //! The Script stage: what comes from outside a match. Requests wait in [`Requests`] and take effect at the next tick, in the
 //! order in which they were made.
 
+#[cfg(test)]
+mod tests;
+
 use std::sync::Arc;
 
 use bevy::prelude::*;

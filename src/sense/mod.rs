@@ -5,6 +5,8 @@
 mod camera;
 mod localisation;
 mod preset;
+#[cfg(test)]
+mod tests;
 
 use std::collections::VecDeque;
 use std::f32::consts::PI;
@@ -155,14 +157,15 @@ fn take_frames(
 
 impl Scene {
     fn of((ball, pose): (&Ball, &Pose), bodies: &Bodies, trailers: &Query<(&Trailer, &Pose)>) -> Scene {
-        Scene {
-            ball: pose.position,
-            ball_radius: ball.kind.radius,
-            robots: bodies.iter().map(|(id, robot, pose)| (*id, pose.position, robot.kind.reach())).collect(),
-            trailers: (trailers.iter())
-                .map(|(trailer, pose)| (trailer.of, pose.to_field(trailer.middle), trailer.radius))
-                .collect(),
-        }
+        let mut robots: Vec<_> =
+            bodies.iter().map(|(id, robot, pose)| (*id, pose.position, robot.kind.reach())).collect();
+        let mut trailers: Vec<_> = (trailers.iter())
+            .map(|(trailer, pose)| (trailer.of, pose.to_field(trailer.middle), trailer.radius))
+            .collect();
+        // A query's order depends on which other components robots have; dice must not.
+        robots.sort_unstable_by_key(|(id, ..)| *id);
+        trailers.sort_unstable_by_key(|(id, ..)| *id);
+        Scene { ball: pose.position, ball_radius: ball.kind.radius, robots, trailers }
     }
 
     fn seen_perfectly(&self, own: RobotId, pose: Pose, team_pose: Pose, tick: u64) -> Frame {
@@ -215,10 +218,9 @@ fn deliver_frames(clock: Res<Clock>, mut eyes: Query<(&mut Eyesight, &mut Percep
 /// Wheels that are told to move faster than this, m/s, and robots that move slower than the second, are stalled.
 const STALL: (f32, f32) = (0.12, 0.04);
 
-fn read_odometry(
-    clock: Res<Clock>,
-    mut robots: Query<(&Robot, &Eyesight, &Pose, &Twist, &WheelCommand, &mut Odometry), Without<OffPitch>>,
-) {
+type Rolling<'a> = (&'a Robot, &'a Eyesight, &'a Pose, &'a Twist, &'a WheelCommand, &'a mut Odometry);
+
+fn read_odometry(clock: Res<Clock>, mut robots: Query<Rolling, Without<OffPitch>>) {
     for (robot, eyesight, pose, twist, wheels, mut odometry) in &mut robots {
         odometry.speed = twist.linear.dot(pose.forward());
         odometry.turn_rate = twist.angular;

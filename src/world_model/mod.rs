@@ -4,15 +4,18 @@
 //! not been seen for a while is forgotten.
 
 mod ball_filter;
+#[cfg(test)]
+mod tests;
 
 use std::collections::VecDeque;
 
 use bevy::prelude::*;
+use smallvec::SmallVec;
 
 pub use ball_filter::{BallFilter, roll_on};
 
 use crate::clock::Clock;
-use crate::geometry::{Pose, Sighting, wrap_angle};
+use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
 use crate::referee::OffPitch;
@@ -64,8 +67,14 @@ pub struct RobotBelief {
 const FIX_GAIN: f32 = 0.2;
 /// A fix farther off than this is believed whole, as after being carried, m and rad.
 const FIX_JUMP: (f32, f32) = (1.0, 0.7);
-/// Sightings nearer to a known robot of the same team than this are taken for it, m.
+/// Sightings nearer to a known robot of the same team than this are taken for it, m, or than twice their deviation.
 const SAME_ROBOT: f32 = 0.7;
+/// Two robots do not fit nearer together than this: of two beliefs that do, the newer one is kept, m.
+const ONE_PLACE: f32 = 0.35;
+/// Robots of each team that are believed in at most; the one seen longest ago gives way.
+const MOST_OF_A_TEAM: usize = 8;
+/// Share of a new sighting in the place of a known robot.
+const SIGHTING_GAIN: f32 = 0.6;
 /// After this many frames that should have shown the ball and did not, it is gone.
 const MISSES: u32 = 6;
 /// Deceleration that robots expect of a rolling ball, m/s².
@@ -93,9 +102,21 @@ impl WorldModel {
         }
     }
 
+    /// The believed pose at a tick, between two decisions too.
     fn pose_at(&self, tick: u64) -> Pose {
-        let known = self.past.iter().rev().find(|(at, _)| *at <= tick).or(self.past.front());
-        known.map_or(self.pose, |(_, pose)| *pose)
+        let later = self.past.partition_point(|(at, _)| *at <= tick);
+        let before = later.checked_sub(1).map(|index| self.past[index]);
+        match (before, self.past.get(later)) {
+            (Some((start, from)), Some(&(end, to))) => {
+                let share = (tick - start) as f32 / (end - start) as f32;
+                Pose {
+                    position: from.position.lerp(to.position, share),
+                    heading: wrap_angle(from.heading + share * wrap_angle(to.heading - from.heading)),
+                }
+            }
+            (Some((_, pose)), None) | (None, Some(&(_, pose))) => pose,
+            (None, None) => self.pose,
+        }
     }
 
     fn localise(&mut self, frame: &Frame, eyes: &Eyes) {
@@ -104,8 +125,10 @@ impl WorldModel {
         let turn = wrap_angle(frame.fix.heading - then.heading);
         let jump = offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1;
         let gain = if jump || *eyes == Eyes::Perfect { 1.0 } else { FIX_GAIN };
+        // The way since then is as long as before, but leads elsewhere if the robot looked elsewhere.
+        let turned = unit(gain * turn);
         let correct = |pose: Pose| Pose {
-            position: pose.position + gain * offset,
+            position: then.position + gain * offset + turned.rotate(pose.position - then.position),
             heading: wrap_angle(pose.heading + gain * turn),
         };
         self.pose = correct(self.pose);
@@ -140,21 +163,44 @@ impl WorldModel {
         }
     }
 
-    fn see_robots(&mut self, frame: &Frame) {
+    /// Each sighting renews one belief or adds one. Noise makes two beliefs of one robot now and then; they are made one
+    /// where they meet, fade with the memory otherwise, and are never more than [`MOST_OF_A_TEAM`].
+    fn see_robots(&mut self, frame: &Frame, eyes: &Eyes) {
         let then = self.pose_at(frame.taken);
+        let gain = if *eyes == Eyes::Perfect { 1.0 } else { SIGHTING_GAIN };
         for (team, sighting) in &frame.robots {
             let (at, seen) = (sighting.placed(then), frame.taken);
+            let reach = SAME_ROBOT.max(2.0 * deviation(eyes, *sighting));
             let known = (self.robots.iter_mut())
                 .filter(|known| known.team == *team && known.seen < seen)
                 .map(|known| (known.position.distance(at), known))
-                .filter(|(distance, _)| *distance < SAME_ROBOT)
+                .filter(|(distance, _)| *distance < reach)
                 .min_by(|(a, _), (b, _)| a.total_cmp(b));
             match known {
                 Some((_, known)) => {
-                    known.position = known.position.lerp(at, 0.6);
+                    known.position = known.position.lerp(at, gain);
                     known.seen = seen;
                 }
                 None => self.robots.push(RobotBelief { team: *team, position: at, seen }),
+            }
+        }
+        self.drop_doubles(frame.taken);
+    }
+
+    fn drop_doubles(&mut self, seen: u64) {
+        let fresh: SmallVec<[RobotBelief; 8]> =
+            self.robots.iter().filter(|robot| robot.seen == seen).copied().collect();
+        let is_double = |robot: &RobotBelief| {
+            let same = |other: &RobotBelief| other.team == robot.team;
+            let near = |other: &RobotBelief| other.position.distance(robot.position) < ONE_PLACE;
+            robot.seen < seen && fresh.iter().any(|other| same(other) && near(other))
+        };
+        self.robots.retain(|robot| !is_double(robot));
+        for team in Team::BOTH {
+            while self.of_team(team).count() > MOST_OF_A_TEAM {
+                let of_team = self.robots.iter().enumerate().filter(|(_, robot)| robot.team == team);
+                let Some((oldest, _)) = of_team.min_by_key(|(_, robot)| robot.seen) else { break };
+                self.robots.remove(oldest);
             }
         }
     }
@@ -169,8 +215,8 @@ impl WorldModel {
     }
 }
 
-/// Decisions whose poses are kept: more than any latency.
-const PAST: usize = 16;
+/// Decisions whose poses are kept: 3 s at 20 a second, which no latency should exceed.
+const PAST: usize = 64;
 
 fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
     match eyes {
@@ -200,7 +246,7 @@ fn update_world_models(
             let since = frame.taken - model.last_frame.unwrap_or(frame.taken);
             model.localise(frame, &eyesight.sensing.eyes);
             model.see_ball(frame, &eyesight.sensing.eyes, since as f32 * clock.dt);
-            model.see_robots(frame);
+            model.see_robots(frame, &eyesight.sensing.eyes);
             model.last_frame = Some(frame.taken);
         }
         if let (Some(ball), Some(filter), Some(last)) = (&mut model.ball, model.filter, model.last_frame) {

@@ -1,18 +1,20 @@
 //! What the robot believes, what is true, and how far apart they are; all in its team frame.
 
 use bevy::prelude::*;
-use bevy_egui::egui::{self, RichText};
+use bevy_egui::egui;
 
 use crate::geometry::wrap_angle;
-use crate::inspector::figures::{self, UNKNOWN, coordinates, degrees, fixed};
-use crate::inspector::matching::{Pair, pair};
+use crate::ids::Team;
+use crate::inspector::figures::{UNKNOWN, coordinates, degrees, fixed};
+use crate::inspector::matching::{Pair, error, pair};
 use crate::inspector::subject::Looked;
 use crate::inspector::{table, tints};
 
-const FRAME: &str = "Metres in the team frame: x towards the opponents' goal, y to the left, from the centre spot";
+const FRAME: &str =
+    "Metres in the team frame: x towards the opponents' goal, y to the left, from the centre spot";
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
-    table::heading(ui, &[("believed", 2), ("true", 2), ("off by", 1), ("age, s", 1)]);
+    table::heading(ui, &["believed x", "y", "true x", "y", "off by", "age, s"]);
     own_pose(ui, robot);
     ball(ui, robot);
     for pair in pair(&robot.of.model.robots, &robot.others) {
@@ -24,12 +26,12 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
 fn compare(
     ui: &mut egui::Ui,
     name: impl Into<egui::WidgetText>,
-    (believed, truth): (Option<Vec2>, Option<Vec2>),
+    places: (Option<Vec2>, Option<Vec2>),
     age: Option<f32>,
 ) -> egui::Response {
     let text = |v: Option<Vec2>| v.map_or([UNKNOWN.into(), UNKNOWN.into()], coordinates);
-    let ([bx, by], [tx, ty]) = (text(believed), text(truth));
-    let off = believed.zip(truth).map_or(String::new(), |(b, t)| fixed(b.distance(t), 2));
+    let ([bx, by], [tx, ty]) = (text(places.0), text(places.1));
+    let off = error(places).map_or(String::new(), |off| fixed(off, 2));
     let age = age.map_or(String::new(), |age| fixed(age, 1));
     table::row(ui, name, &[&bx, &by, &tx, &ty, &off, &age])
 }
@@ -58,9 +60,8 @@ fn other(ui: &mut egui::Ui, robot: &Looked, pair: Pair) {
         (None, Some(belief)) => named(ui, format!("{} ?", belief.team), belief.team),
         (None, None) => return,
     };
-    let places = (pair.belief.map(|belief| belief.position), pair.truth.map(|(_, at)| at));
     let age = pair.belief.map(|belief| robot.since(belief.seen));
-    let row = compare(ui, name, places, age);
+    let row = compare(ui, name, pair.places(), age);
     match pair {
         Pair { truth: None, .. } => row.on_hover_text("Believed to be there, but nobody is"),
         Pair { belief: None, .. } => row.on_hover_text("The robot knows nothing of it"),
@@ -68,11 +69,10 @@ fn other(ui: &mut egui::Ui, robot: &Looked, pair: Pair) {
     };
 }
 
-fn named(ui: &egui::Ui, name: String, team: crate::ids::Team) -> egui::WidgetText {
+fn named(ui: &egui::Ui, name: String, team: Team) -> egui::WidgetText {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let mut job = egui::text::LayoutJob::default();
     job.append("■ ", 0.0, egui::TextFormat::simple(font.clone(), tints::egui(tints::team(team))));
     job.append(&name, 0.0, egui::TextFormat::simple(font, ui.visuals().text_color()));
-    let _ = (RichText::new(""), figures::UNKNOWN);
     job.into()
 }

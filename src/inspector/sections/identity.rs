@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::Desk;
+use super::{Desk, close_button};
 use crate::ids::RobotId;
 use crate::inspector::subject::Looked;
 use crate::inspector::{figures, table, tints};
@@ -13,20 +13,23 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
     let role_name = |index: usize| strategy.roles.get(index).map_or(figures::UNKNOWN, |role| &role.name);
     ui.horizontal(|ui| {
         shirt(ui, robot.id);
-        ui.label(RichText::new(role_name(robot.of.role.0)).heading());
+        ui.label(RichText::new(role_name(robot.of.role.0)).size(18.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            close_button(ui, desk.open);
             hand_over(ui, robot.id, robot.of.piloted, desk);
         });
     });
-    ui.add_space(2.0);
     if robot.of.activity.acting_as != robot.of.role.0 {
         table::line(ui, "acts as", role_name(robot.of.activity.acting_as));
     }
     let kind = &robot.of.robot.kind;
-    let build = format!("{}, {} at most", kind.name, figures::speed(kind.max_speed()));
-    table::line(ui, "robot", build);
     let driver = if robot.of.piloted { "you" } else { strategy.name.as_str() };
-    table::line(ui, "driven by", driver).on_hover_text(strategy.description.as_str());
+    table::line(ui, "robot", format!("{}, driven by {driver}", kind.name)).on_hover_text(format!(
+        "{} at most. {}: {}",
+        figures::speed(kind.max_speed()),
+        strategy.name,
+        strategy.description
+    ));
     if robot.of.off_pitch {
         table::line(ui, "off the pitch", RichText::new(penalty(robot)).strong());
     }

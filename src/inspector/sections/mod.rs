@@ -6,7 +6,6 @@ mod identity;
 mod motor;
 mod percepts;
 
-use bevy::prelude::*;
 use bevy_egui::egui;
 
 use super::subject::Looked;
@@ -19,19 +18,33 @@ pub struct Desk<'a> {
     pub requests: &'a mut Requests,
     pub weights: &'a mut Weights,
     pub piloted: &'a mut Piloted,
+    /// Whether the panel is open.
+    pub open: &'a mut bool,
 }
 
-/// Draws everything about a robot, from top to bottom.
-pub fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+/// Draws who the robot is, which stays in sight.
+pub fn draw_head(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
     identity::draw(ui, robot, desk);
+}
+
+/// Draws what is inside a robot, from top to bottom.
+pub fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
     section(ui, "Activity", |ui| activity::draw(ui, robot));
     section(ui, "Motor", |ui| motor::draw(ui, robot, desk));
     section(ui, "Beliefs beside the truth", |ui| beliefs::draw(ui, robot));
     section(ui, "Percepts", |ui| percepts::draw(ui, robot));
 }
 
+/// The button that closes the panel.
+pub fn close_button(ui: &mut egui::Ui, open: &mut bool) {
+    let close = ui.add(egui::Button::new("⏵").frame(false));
+    if close.on_hover_text("Close the inspector (I)").clicked() {
+        *open = false;
+    }
+}
+
 fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
-    ui.add_space(4.0);
+    ui.add_space(3.0);
     egui::CollapsingHeader::new(egui::RichText::new(title).strong())
         .id_salt(title)
         .default_open(true)

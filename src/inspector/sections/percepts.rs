@@ -9,25 +9,25 @@ use crate::inspector::{figures, table};
 use crate::sense::{Eyes, Frame};
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
-    table::line(ui, "camera", camera(&robot.of.eyesight.sensing.eyes));
+    let eyes = camera(&robot.of.eyesight.sensing.eyes);
     let Some(frame) = &robot.of.percepts.frame else {
-        table::line(ui, "frame", "none yet");
+        table::line(ui, "frame", "none yet").on_hover_text(eyes);
         return;
     };
     let age = figures::fixed(robot.since(frame.taken), 2);
-    table::line(ui, "frame", format!("taken {age} s ago"))
-        .on_hover_text("The newest frame that has arrived, by the time when its shutter opened");
+    table::line(ui, "frame", format!("the newest that has arrived, {age} s old")).on_hover_text(eyes);
     table::line(ui, "ball", frame.ball.map_or("not in the frame".into(), sighted));
     table::line(ui, "robots", robots_in(frame, robot.id.team));
 }
 
 fn camera(eyes: &Eyes) -> String {
     match eyes {
-        Eyes::Perfect => "perfect: everything, at once".into(),
+        Eyes::Perfect => "Perfect eyes: everything, at once".into(),
         Eyes::Real { camera, .. } => format!(
-            "{}° wide, ball to {}, {} Hz",
+            "A camera {}° wide that sees the ball up to {} and robots up to {} away, {} frames a second",
             figures::fixed(camera.field_of_view, 0),
             figures::metres(camera.ball_range),
+            figures::metres(camera.robot_range),
             figures::fixed(camera.frame_hz, 0),
         ),
     }

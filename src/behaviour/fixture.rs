@@ -1,0 +1,93 @@
+//! For unit tests: a robot's situation with plain defaults, and strategies from a few lines of text.
+
+use bevy::prelude::*;
+
+use super::Perception;
+use crate::data::Source;
+use crate::geometry::{Pose, Zone};
+use crate::ids::Team;
+use crate::pitch::Pitch;
+use crate::robot::RobotKind;
+use crate::strategy::Strategy;
+use crate::world_model::{BallBelief, RobotBelief, WorldModel};
+
+/// What a home robot believes, and the rest of a [`Perception`]; change what a test is about.
+pub struct Situation {
+    pub model: WorldModel,
+    pub pitch: Pitch,
+    pub now: f32,
+    pub ball_age: Option<f32>,
+    pub time_in_state: f32,
+    pub stalled_for: f32,
+}
+
+impl Situation {
+    pub const DANGER_ZONE: Zone = Zone { min: Vec2::new(-2.0, -1.0), max: Vec2::new(0.5, 1.0) };
+    pub const HOMEBASE: Vec2 = Vec2::new(-1.5, 0.25);
+    /// From the centre to the front, and the ball's radius, m.
+    pub const FRONT: f32 = 0.125;
+    pub const BALL_RADIUS: f32 = 0.125;
+
+    /// A robot at this place, m, that looks in this direction, degrees, and knows of nothing else.
+    pub fn at(x: f32, y: f32, degrees: f32) -> Situation {
+        Situation {
+            model: WorldModel::told(Pose::new(x, y, degrees.to_radians())),
+            pitch: pitch(),
+            now: 0.0,
+            ball_age: None,
+            time_in_state: 0.0,
+            stalled_for: 0.0,
+        }
+    }
+
+    pub fn ball(self, x: f32, y: f32) -> Situation {
+        self.rolling_ball(x, y, Vec2::ZERO)
+    }
+
+    pub fn rolling_ball(mut self, x: f32, y: f32, velocity: Vec2) -> Situation {
+        self.model.ball = Some(BallBelief { position: Vec2::new(x, y), velocity, seen: 0 });
+        self
+    }
+
+    pub fn robot(mut self, team: Team, x: f32, y: f32) -> Situation {
+        self.model.robots.push(RobotBelief { team, position: Vec2::new(x, y), seen: 0 });
+        self
+    }
+
+    pub fn senses(&self) -> Perception<'_> {
+        Perception {
+            team: Team::Home,
+            model: &self.model,
+            pitch: &self.pitch,
+            danger_zone: Situation::DANGER_ZONE,
+            homebase: Situation::HOMEBASE,
+            now: self.now,
+            ball_age: self.ball_age,
+            time_in_state: self.time_in_state,
+            stalled_for: self.stalled_for,
+            front: Situation::FRONT,
+            ball_radius: Situation::BALL_RADIUS,
+        }
+    }
+}
+
+/// The shipped pitch: 9 by 5 m.
+pub fn pitch() -> Pitch {
+    let text = include_str!("../../assets/pitches/middle_size_2001.ron");
+    Source::new("pitch.ron", text).parse().expect("the shipped pitch is sound")
+}
+
+/// The shipped robot, which decides 20 times a second.
+pub fn cye() -> RobotKind {
+    let text = include_str!("../../assets/robots/cye.ron");
+    Source::new("cye.ron", text).parse().expect("the shipped robot is sound")
+}
+
+/// A strategy of one player with these features, schemas, assemblages, machines and roles, as a file has them.
+pub fn strategy(player: &str, pieces: &str) -> Strategy {
+    let text = format!(
+        "(name: \"test\", robot_kinds: [\"cye\"], players: [\"{player}\"],
+          kick_off: (ours: [(-1.0, 0.0)], theirs: [(-1.0, 0.0)]), {pieces})"
+    );
+    Strategy::parse(&Source::new("test.ron", text)).expect("the strategy of the test is sound")
+}

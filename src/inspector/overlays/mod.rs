@@ -1,0 +1,86 @@
+//! What the inspector draws upon the pitch, around the selected robot, in metres of the pitch frame.
+//!
+//! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::tints`].
+
+mod beliefs;
+mod sight;
+mod vectors;
+mod zones;
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+
+use super::subject::Scene;
+use crate::view::shown::Shown;
+use crate::view::state::{Overlays, Screen};
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_gizmo_group::<Broad>()
+        .init_gizmo_group::<Strong>()
+        .init_gizmo_group::<Fine>()
+        .add_systems(Startup, set_widths)
+        .add_systems(PostUpdate, draw.after(TransformSystems::Propagate).run_if(in_state(Screen::Match)));
+}
+
+/// Lines that lie under others.
+#[derive(Default, Reflect, GizmoConfigGroup)]
+struct Broad;
+
+/// Lines that are looked at.
+#[derive(Default, Reflect, GizmoConfigGroup)]
+struct Strong;
+
+/// Lines that only connect or bound.
+#[derive(Default, Reflect, GizmoConfigGroup)]
+struct Fine;
+
+fn set_widths(mut store: ResMut<GizmoConfigStore>) {
+    store.config_mut::<Broad>().0.line.width = 5.0;
+    store.config_mut::<Strong>().0.line.width = 2.5;
+    store.config_mut::<Fine>().0.line.width = 1.2;
+}
+
+/// What overlays are drawn with.
+#[derive(SystemParam)]
+pub(super) struct Pens<'w, 's> {
+    broad: Gizmos<'w, 's, Broad>,
+    strong: Gizmos<'w, 's, Strong>,
+    fine: Gizmos<'w, 's, Fine>,
+}
+
+fn draw(
+    overlays: Res<Overlays>,
+    scene: Scene,
+    shown: Query<&Shown>,
+    camera: Query<(&Camera, &GlobalTransform), With<Camera2d>>,
+    mut pens: Pens,
+) {
+    // Upon the bodies as they are shown, which glide between two ticks.
+    let placed =
+        |entity, pose| shown.iter().find(|shown| shown.body == entity).map_or(pose, |shown| shown.pose);
+    let Some(robot) = scene.looked_with(placed) else { return };
+    let pixel = camera.iter().next().and_then(|(camera, at)| metres_a_pixel(camera, at)).unwrap_or(0.01);
+    let anchor = robot.ends.turn_pose(robot.pose);
+    if overlays.zones {
+        zones::draw(&mut pens, &robot, scene.pitch.half_size());
+    }
+    if robot.of.off_pitch {
+        return;
+    }
+    if overlays.field_of_view {
+        sight::draw_field_of_view(&mut pens, &robot.of.eyesight.sensing.eyes, anchor, pixel);
+    }
+    if overlays.beliefs {
+        beliefs::draw(&mut pens, &robot, pixel);
+        sight::draw_frame(&mut pens, &robot, pixel);
+    }
+    if overlays.vectors {
+        vectors::draw(&mut pens, &robot, anchor.position);
+    }
+}
+
+/// Metres that a pixel of the screen covers.
+fn metres_a_pixel(camera: &Camera, at: &GlobalTransform) -> Option<f32> {
+    let there = |x: f32| camera.viewport_to_world_2d(at, Vec2::new(x, 0.0)).ok();
+    Some(there(100.0)?.distance(there(0.0)?) / 100.0)
+}

@@ -1,0 +1,84 @@
+//! Every colour of the window, one meaning each: the hall of 2001 with green carpet, white walls and bright markers.
+
+use bevy::prelude::*;
+use bevy_egui::egui;
+
+use crate::ids::Team;
+
+const fn rgb(hex: u32) -> Color {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    Color::srgb(red as f32 / 255.0, green as f32 / 255.0, blue as f32 / 255.0)
+}
+
+/// Around the pitch.
+pub const FLOOR: Color = rgb(0x14_1A_17);
+pub const CARPET: Color = rgb(0x2E_7D_46);
+/// Every second mowing stripe.
+pub const STRIPE: Color = rgb(0x33_86_4C);
+/// Lines, walls and penalty spots.
+pub const CHALK: Color = rgb(0xF1_F1_EA);
+pub const WEST_GOAL: Color = rgb(0x2F_6F_DE);
+pub const EAST_GOAL: Color = rgb(0xF2_C2_30);
+pub const ROBOT: Color = rgb(0x1B_1D_22);
+/// The line around a robot's parts.
+pub const ROBOT_EDGE: Color = rgb(0x5A_61_6B);
+pub const BALL: Color = rgb(0xFF_8A_1F);
+pub const BALL_EDGE: Color = rgb(0x6B_30_00);
+/// The ring of a robot under a person's hand, and what sensors said.
+pub const PILOT: Color = rgb(0xFF_FF_FF);
+
+/// Text on panels.
+pub const TEXT: Color = rgb(0xE6_EA_E7);
+/// Less important text.
+pub const QUIET: Color = rgb(0xA3_AE_A7);
+/// What the referee has just decided.
+pub const CALL: Color = rgb(0xFF_D1_66);
+/// What went wrong.
+pub const TROUBLE: Color = rgb(0x9E_2A_2B);
+/// A robot that is off the pitch.
+pub const PENALTY: Color = rgb(0xFF_6B_5E);
+/// Panels.
+pub const PANEL: Color = rgb(0x1B_23_1F);
+/// Cards and buttons on panels.
+pub const RAISED: Color = rgb(0x2A_35_2F);
+/// What is switched on or pointed at.
+pub const ACCENT: Color = rgb(0x3F_A9_63);
+
+/// The colour of a team's markers.
+pub const fn team(team: Team) -> Color {
+    match team {
+        Team::Home => rgb(0xD6_40_9F),
+        Team::Away => rgb(0x22_B8_CF),
+    }
+}
+
+/// A team's colour as text on a dark panel.
+pub const fn team_text(team: Team) -> Color {
+    match team {
+        Team::Home => rgb(0xF0_7C_C4),
+        Team::Away => rgb(0x5F_D5_E6),
+    }
+}
+
+/// The same colour for egui.
+pub fn egui(colour: Color) -> egui::Color32 {
+    let [r, g, b, a] = colour.to_srgba().to_u8_array();
+    egui::Color32::from_rgba_unmultiplied(r, g, b, a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_reach_the_interface_unchanged() {
+        assert_eq!(egui(team(Team::Home)), egui::Color32::from_rgb(0xD6, 0x40, 0x9F));
+        assert_eq!(egui(CARPET), egui::Color32::from_rgb(0x2E, 0x7D, 0x46));
+    }
+
+    #[test]
+    fn the_teams_differ_in_lightness_as_well() {
+        let lightness = |of: Team| Oklcha::from(team(of)).lightness;
+        assert!(lightness(Team::Away) - lightness(Team::Home) > 0.08);
+    }
+}

@@ -1,0 +1,212 @@
+//! What asks before it does something: a restart, and leaving a match that is not over. While it asks, time stands still.
+
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+
+use super::FrameSystems;
+use super::actions::Action;
+use super::colours::{self, egui as paint};
+use super::layout::{FreeArea, PanelSystems};
+use super::session::{MatchBegun, Session, Wish};
+use super::state::{Piloted, Screen, Selected};
+use crate::clock::Clock;
+use crate::ids::Team;
+use crate::referee::{MatchState, Phase};
+use crate::strategy::Strategies;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Open>()
+        .add_observer(close_all)
+        .add_systems(Update, (open_and_close, show_result_at_the_end).in_set(FrameSystems::Input))
+        .add_systems(
+            EguiPrimaryContextPass,
+            (ask, show_result).in_set(PanelSystems::Floating).run_if(in_state(Screen::Match)),
+        );
+}
+
+/// What lies over the pitch.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Open {
+    pub question: Option<Question>,
+    pub help: bool,
+    /// The final score.
+    pub result: bool,
+}
+
+/// What is asked before it is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    Restart,
+    Leave,
+}
+
+impl Question {
+    /// Question, yes and no.
+    fn words(self) -> [&'static str; 3] {
+        match self {
+            Question::Restart => ["Restart the match? Its score will be lost.", "Restart", "Play on"],
+            Question::Leave => ["Leave the match? Its score will be lost.", "Leave", "Play on"],
+        }
+    }
+}
+
+impl Open {
+    /// Closes the uppermost thing; whether there was one.
+    fn close_one(&mut self) -> bool {
+        let open = [self.question.take().is_some(), self.help, self.result];
+        match open {
+            [true, ..] => true,
+            [_, true, _] => std::mem::take(&mut self.help),
+            [.., result] => {
+                self.result = false;
+                result
+            }
+        }
+    }
+}
+
+fn close_all(_: On<MatchBegun>, mut open: ResMut<Open>) {
+    *open = Open::default();
+}
+
+fn open_and_close(
+    mut actions: MessageReader<Action>,
+    (state, clock): (Res<MatchState>, Res<Clock>),
+    (mut open, mut selected, piloted): (ResMut<Open>, ResMut<Selected>, Res<Piloted>),
+    mut doing: Doing,
+) {
+    let running = state.phase != Phase::Finished && clock.tick > 0;
+    for action in actions.read() {
+        match action {
+            Action::Help => open.help = !open.help,
+            Action::Restart if running => open.question = Some(Question::Restart),
+            Action::Restart => doing.carry_out(Question::Restart),
+            Action::Leave if running => open.question = Some(Question::Leave),
+            Action::Leave => doing.carry_out(Question::Leave),
+            Action::Escape => {
+                if open.close_one() {
+                    continue;
+                }
+                if selected.0.is_some() && piloted.0.is_none() {
+                    selected.0 = None;
+                } else if running {
+                    open.question = Some(Question::Leave);
+                } else {
+                    doing.carry_out(Question::Leave);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// What a yes leads to.
+#[derive(bevy::ecs::system::SystemParam)]
+struct Doing<'w> {
+    wish: ResMut<'w, Wish>,
+    session: Res<'w, Session>,
+    screen: ResMut<'w, NextState<Screen>>,
+}
+
+impl Doing<'_> {
+    fn carry_out(&mut self, question: Question) {
+        match question {
+            Question::Restart => self.wish.0 = Some(self.session.choice.clone()),
+            Question::Leave => self.screen.set(Screen::Menu),
+        }
+    }
+}
+
+/// A window in the middle of the pitch that is not moved about.
+pub fn middle_window<'a>(title: &str, area: &FreeArea) -> egui::Window<'a> {
+    egui::Window::new(title.to_owned())
+        .pivot(egui::Align2::CENTER_CENTER)
+        .fixed_pos(area.0.center())
+        .title_bar(false)
+        .collapsible(false)
+        .resizable(false)
+        .constrain(true)
+        .order(egui::Order::Foreground)
+}
+
+fn ask(mut contexts: EguiContexts, area: Res<FreeArea>, mut open: ResMut<Open>, mut doing: Doing) -> Result {
+    let Some(question) = open.question else { return Ok(()) };
+    let ctx = contexts.ctx_mut()?;
+    let [text, yes, no] = question.words();
+    let shown = middle_window("Question", &area).show(ctx, |ui| {
+        ui.label(egui::RichText::new(text).size(16.0));
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            let yes = ui.button(yes).on_hover_text("Enter").clicked();
+            let no = ui.button(no).on_hover_text("Escape").clicked();
+            (yes, no)
+        })
+        .inner
+    });
+    let (clicked, refused) = shown.and_then(|shown| shown.inner).unwrap_or_default();
+    let confirmed = clicked || ctx.input(|input| input.key_pressed(egui::Key::Enter));
+    if confirmed {
+        doing.carry_out(question);
+    }
+    if confirmed || refused {
+        open.question = None;
+    }
+    Ok(())
+}
+
+fn show_result_at_the_end(state: Res<MatchState>, mut open: ResMut<Open>, mut shown: Local<bool>) {
+    let over = state.phase == Phase::Finished;
+    if over && !*shown {
+        open.result = true;
+    }
+    *shown = over;
+}
+
+fn show_result(
+    mut contexts: EguiContexts,
+    (area, open): (Res<FreeArea>, Res<Open>),
+    (state, strategies): (Res<MatchState>, Res<Strategies>),
+    mut actions: MessageWriter<Action>,
+) -> Result {
+    if !open.result || open.question.is_some() {
+        return Ok(());
+    }
+    let [home, away] = state.score;
+    middle_window("Full time", &area).show(contexts.ctx_mut()?, |ui| {
+        ui.vertical_centered(|ui| {
+            ui.label(egui::RichText::new("Full time").size(16.0));
+            ui.label(egui::RichText::new(format!("{home} : {away}")).size(36.0).strong());
+            for team in Team::BOTH {
+                let name = egui::RichText::new(&strategies.of(team).name).size(16.0);
+                ui.label(name.color(paint(colours::team_text(team))));
+            }
+        });
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            for (text, action) in [("Play again", Action::Restart), ("Menu", Action::Leave)] {
+                if ui.button(text).on_hover_text(action.tooltip()).clicked() {
+                    actions.write(action);
+                }
+            }
+            if ui.button("Look at the pitch").on_hover_text(Action::Escape.tooltip()).clicked() {
+                actions.write(Action::Escape);
+            }
+        });
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_closes_one_thing_at_a_time_from_the_top() {
+        let mut open = Open { question: Some(Question::Leave), help: true, result: true };
+        assert!(open.close_one());
+        assert_eq!(open, Open { question: None, help: true, result: true });
+        assert!(open.close_one() && open.close_one());
+        assert_eq!(open, Open::default());
+        assert!(!open.close_one());
+    }
+}

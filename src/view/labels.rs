@@ -1,0 +1,146 @@
+//! Text on the pitch: numbers on the robots' plates, and beside each robot its role, its activity where there is room for it,
+//! and a sign if it is off the pitch. Drawn by egui's painter under all panels.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+
+use super::camera::Sight;
+use super::colours::{self, egui as paint};
+use super::layout::{FreeArea, PanelSystems};
+use super::nudge::{Choice, Placed};
+use super::robots::Plate;
+use super::shown::Shown;
+use super::state::{Overlays, Screen, Selected};
+use super::style::{SMALL, font};
+use crate::ball::Ball;
+use crate::behaviour::Activity;
+use crate::ids::RobotId;
+use crate::pilot::Pilot;
+use crate::referee::{MatchState, OffPitch};
+use crate::strategy::{Strategies, Strategy};
+use crate::teamwork::Role;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Kept>().add_systems(
+        EguiPrimaryContextPass,
+        write_on_pitch.in_set(PanelSystems::Pitch).run_if(in_state(Screen::Match)),
+    );
+}
+
+/// Places of labels, kept from frame to frame so that they do not hop about.
+#[derive(Resource, Clone, Debug, Default)]
+struct Kept {
+    placed: Placed,
+    choices: BTreeMap<RobotId, Choice>,
+}
+
+/// Activities are shown for all robots from this scale on, points to a metre.
+const NEAR: f32 = 150.0;
+/// Reach of a robot around the middle of its outline, m.
+const REACH: f32 = 0.36;
+/// Reach of the rings around one, m.
+const RING_REACH: f32 = 0.52;
+/// Height of a number on its plate, m.
+const NUMBER: f32 = 0.19;
+const LARGEST_NUMBER: f32 = 34.0;
+
+#[derive(QueryData)]
+struct Labelled {
+    id: &'static RobotId,
+    role: &'static Role,
+    activity: &'static Activity,
+    off_pitch: Has<OffPitch>,
+    piloted: Has<Pilot>,
+}
+
+/// What a label says: lines with their colours.
+fn lines(of: &LabelledItem, strategy: &Strategy, state: &MatchState, with_activity: bool) -> Vec<(String, Color)> {
+    let mut lines = Vec::with_capacity(3);
+    let tag = |role: usize| strategy.roles.get(role).map_or("", |role| role.tag.as_str());
+    let (own, acting) = (of.role.0, of.activity.acting_as);
+    let role = if tag(own) == tag(acting) { tag(own).to_owned() } else { format!("{} as {}", tag(own), tag(acting)) };
+    lines.push((role, colours::PILOT));
+    if of.off_pitch {
+        lines.push((off_text(state, *of.id), colours::PENALTY));
+    } else if of.piloted {
+        lines.push(("you".into(), colours::PILOT));
+    } else if with_activity {
+        let machine = strategy.machines.get(of.activity.machine(strategy));
+        let activity = machine.and_then(|machine| machine.states.get(of.activity.state));
+        lines.extend(activity.map(|activity| (activity.name.replace('_', " "), colours::TEXT)));
+    }
+    lines
+}
+
+/// How long a robot is off the pitch yet.
+fn off_text(state: &MatchState, robot: RobotId) -> String {
+    match state.removed.iter().find(|removal| removal.robot == robot) {
+        Some(removal) if removal.seconds_left > 0.0 => format!("off for {} s", removal.seconds_left.ceil()),
+        _ => "waits to return".into(),
+    }
+}
+
+fn write_on_pitch(
+    mut contexts: EguiContexts,
+    (area, sight, overlays, selected): (Res<FreeArea>, Res<Sight>, Res<Overlays>, Res<Selected>),
+    (state, strategies, mut kept): (Res<MatchState>, Res<Strategies>, ResMut<Kept>),
+    shown: Query<(&Shown, Option<&Plate>)>,
+    robots: Query<Labelled>,
+    ball: Query<&Ball>,
+) -> Result {
+    let ctx = contexts.ctx_mut()?;
+    let layer = egui::LayerId::new(egui::Order::Background, egui::Id::new("text on the pitch"));
+    let painter = ctx.layer_painter(layer).with_clip_rect(area.0);
+    let kept = &mut *kept;
+    kept.placed.clear();
+    for (shown, _) in &shown {
+        let reach = ball.get(shown.body).map_or(0.6 * REACH, |ball| ball.kind.radius) * sight.scale;
+        let body = egui::Rect::from_center_size(sight.to_screen(shown.pose.position), egui::Vec2::splat(2.0 * reach));
+        kept.placed.add_body(body);
+    }
+    let size = (NUMBER * sight.scale).clamp(SMALL, LARGEST_NUMBER).round();
+    let mut labelled: Vec<_> = shown.iter().filter_map(|(drawn, plate)| Some((*drawn, *plate?))).collect();
+    labelled.sort_unstable_by_key(|(_, plate)| (selected.0 != Some(plate.of), plate.of));
+    for (drawn, plate) in labelled {
+        let at = sight.to_screen(drawn.pose.to_field(plate.middle));
+        let number = plate.of.number.to_string();
+        painter.text(at, egui::Align2::CENTER_CENTER, number, font(size), paint(colours::ROBOT));
+        let unit = shown.iter().find(|(shown, _)| shown.robot == Some(plate.of)).map(|(unit, _)| unit);
+        let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else { continue };
+        let is_selected = selected.0 == Some(plate.of);
+        if !(overlays.labels || is_selected || robot.off_pitch) {
+            continue;
+        }
+        let with_activity = is_selected || sight.scale > NEAR;
+        let lines = lines(&robot, strategies.of(plate.of.team), &state, with_activity);
+        let galley = lay_out(&painter, &lines);
+        let middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
+        let choice = kept.choices.entry(plate.of).or_default();
+        let room = galley.size() + 2.0 * PADDING;
+        let reach = if is_selected { RING_REACH } else { REACH };
+        let (rect, taken) = kept.placed.place(middle, reach * sight.scale + 4.0, room, *choice);
+        *choice = taken;
+        painter.rect_filled(rect, 4.0, egui::Color32::from_black_alpha(150));
+        painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
+    }
+    Ok(())
+}
+
+/// Room around a label's text, in points.
+const PADDING: egui::Vec2 = egui::vec2(5.0, 1.0);
+
+fn lay_out(painter: &egui::Painter, lines: &[(String, Color)]) -> Arc<egui::Galley> {
+    let mut job = egui::text::LayoutJob { halign: egui::Align::Center, ..default() };
+    for (number, (line, colour)) in lines.iter().enumerate() {
+        let format = egui::TextFormat { font_id: font(SMALL), color: paint(*colour), ..default() };
+        if number > 0 {
+            job.append("\n", 0.0, format.clone());
+        }
+        job.append(line, 0.0, format);
+    }
+    painter.layout_job(job)
+}

@@ -1,0 +1,150 @@
+//! The first thing that a person sees: three cards, of which the first needs no thought.
+
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+use egui::{Color32, RichText, vec2};
+
+use super::calls::Trouble;
+use super::colours::{self, egui as paint};
+use super::custom::{Form, fresh_seed};
+use super::layout::{FreeArea, PanelSystems};
+use super::session::{Folder, Wish};
+use super::state::Screen;
+use crate::game::Choice;
+use crate::ids::{RobotId, Team};
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Form>().add_systems(OnEnter(Screen::Menu), enter).add_systems(
+        EguiPrimaryContextPass,
+        show_menu.in_set(PanelSystems::Floating).run_if(in_state(Screen::Menu)),
+    );
+}
+
+const CARD: egui::Vec2 = vec2(330.0, 270.0);
+const GAP: f32 = 20.0;
+
+/// A match with the person at the wheel of a ball chaser.
+fn against_the_hammerheads() -> Choice {
+    Choice {
+        home: Some("ball_chasers".into()),
+        away: Some("hammerheads_2001".into()),
+        half_minutes: Some(5.0),
+        seed: fresh_seed(),
+        pilot: Some(RobotId::new(Team::Home, 0)),
+        ..Choice::default()
+    }
+}
+
+/// The friendly match, with nobody at the wheel.
+fn to_watch() -> Choice {
+    Choice { half_minutes: Some(5.0), seed: fresh_seed(), ..Choice::default() }
+}
+
+fn enter(world: &mut World) {
+    super::shown::clear(world);
+    if let Some(folder) = world.get_resource::<Folder>().cloned() {
+        world.resource_mut::<Form>().refresh(&folder.0);
+    }
+}
+
+fn show_menu(
+    mut contexts: EguiContexts,
+    area: Res<FreeArea>,
+    (mut form, mut wish, trouble): (ResMut<Form>, ResMut<Wish>, Res<Trouble>),
+) -> Result {
+    let ctx = contexts.ctx_mut()?;
+    let place = egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(area.0);
+    let mut ui = egui::Ui::new(ctx.clone(), egui::Id::new("menu"), place);
+    paint_pitch(ui.painter(), area.0);
+    let width = 3.0 * CARD.x + 2.0 * GAP;
+    let left = ((area.0.width() - width) / 2.0).max(8.0);
+    ui.add_space((area.0.height() * 0.14).max(12.0));
+    ui.vertical_centered(|ui| {
+        ui.label(RichText::new("Touchline").size(52.0).color(Color32::WHITE));
+        ui.label(RichText::new("Robot soccer, as in the RoboCup hall of 2001").size(18.0).color(Color32::WHITE));
+    });
+    ui.add_space(36.0);
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        ui.add_space(left);
+        let play = "You drive one robot of the home team against the CMU Hammerheads of 2001. Your three team mates \
+                    chase the ball by themselves.";
+        if card(ui, "Play against the Hammerheads", play, |ui| big_button(ui, "Play").clicked()) {
+            wish.0 = Some(against_the_hammerheads());
+        }
+        let watch = "The CMU Hammerheads play against a team of ball chasers. Select a robot to see what it senses, \
+                     believes and wants, and take it over whenever you like.";
+        if card(ui, "Watch", watch, |ui| big_button(ui, "Watch").clicked()) {
+            wish.0 = Some(to_watch());
+        }
+        if let Some(choice) = card(ui, "Custom match", "", |ui| form.show(ui)) {
+            wish.0 = Some(choice);
+        }
+    });
+    if let Some(trouble) = &trouble.0 {
+        ui.add_space(20.0);
+        ui.vertical_centered(|ui| {
+            let frame = super::style::panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 8)).corner_radius(6);
+            frame.show(ui, |ui| ui.add(egui::Label::new(RichText::new(trouble).color(Color32::WHITE)).wrap()));
+        });
+    }
+    Ok(())
+}
+
+fn card<R>(ui: &mut egui::Ui, title: &str, text: &str, foot: impl FnOnce(&mut egui::Ui) -> R) -> R {
+    let frame = egui::Frame::new().fill(paint(colours::PANEL)).corner_radius(10).inner_margin(18);
+    let inner = CARD - frame.total_margin().sum();
+    frame
+        .show(ui, |ui| {
+            ui.set_width(inner.x);
+            ui.set_height(inner.y);
+            ui.vertical(|ui| {
+                ui.spacing_mut().item_spacing.x = 6.0;
+                ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
+                ui.add_space(4.0);
+                if text.is_empty() {
+                    return foot(ui);
+                }
+                ui.label(RichText::new(text).size(15.0).color(paint(colours::TEXT)));
+                ui.with_layout(egui::Layout::bottom_up(egui::Align::Min), foot).inner
+            })
+            .inner
+        })
+        .inner
+}
+
+/// The button that a card is about.
+pub fn big_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
+    let text = RichText::new(text).size(17.0).color(Color32::WHITE);
+    let text = (egui::Atom::grow(), text, egui::Atom::grow());
+    ui.add(egui::Button::new(text).fill(paint(colours::ACCENT).gamma_multiply(0.8)).min_size(vec2(120.0, 36.0)))
+}
+
+/// A pitch to rest the eyes on: stripes, a line and a circle.
+fn paint_pitch(painter: &egui::Painter, area: egui::Rect) {
+    painter.rect_filled(area, 0.0, paint(colours::CARPET));
+    let stripe = area.width() / 12.0;
+    for number in (0..12).step_by(2) {
+        let left = area.left() + number as f32 * stripe;
+        let rect = egui::Rect::from_x_y_ranges(left..=left + stripe, area.y_range());
+        painter.rect_filled(rect, 0.0, paint(colours::STRIPE));
+    }
+    let chalk = egui::Stroke::new(4.0, paint(colours::CHALK).gamma_multiply(0.35));
+    painter.circle_stroke(egui::pos2(area.center().x, area.bottom() - 24.0), area.height() * 0.16, chalk);
+    painter.rect_stroke(area.shrink(24.0), 0.0, chalk, egui::StrokeKind::Inside);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::AssetFolder;
+    use crate::game::MatchPlan;
+
+    #[test]
+    fn every_card_leads_to_a_match_that_can_be_played() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        for choice in [against_the_hammerheads(), to_watch()] {
+            assert_eq!(MatchPlan::read(&assets, &choice).map(|plan| plan.pilot), Ok(choice.pilot));
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The window: shows a match as it is and passes on what people want of it. It runs the same [`crate::schedule::Tick`] as the
+//! headless runner, zero, one or many times a frame, and changes a match by [`crate::script::Requests`] only.
+//!
+//! Units of the picture are metres of the pitch frame. What is drawn are entities of their own, which follow the bodies of
+//! the simulation; see [`shown`].
+
+mod actions;
+mod ball;
+mod bottom_bar;
+mod calls;
+mod camera;
+pub mod colours;
+mod custom;
+mod dialogues;
+mod display;
+mod driver;
+mod help;
+mod labels;
+pub mod layout;
+mod menu;
+mod nudge;
+mod pilot_seat;
+mod pitch;
+mod reload;
+mod rings;
+mod robots;
+mod selection;
+mod session;
+mod shapes;
+pub mod shown;
+pub mod state;
+mod style;
+mod time_line;
+mod top_bar;
+
+use std::process::ExitCode;
+
+use bevy::log::{Level, LogPlugin};
+use bevy::prelude::*;
+use bevy::window::{PresentMode, WindowResolution};
+use bevy_egui::EguiPlugin;
+
+pub use display::missing_for_a_window;
+
+use crate::data::AssetFolder;
+use crate::game::Choice;
+
+/// Opens the window and returns when it is closed: at the menu, or in the match if one was chosen.
+pub fn open_window(assets: &AssetFolder, choice: &Choice) -> ExitCode {
+    let mut app = App::new();
+    app.add_plugins(
+        DefaultPlugins
+            .set(WindowPlugin { primary_window: Some(window()), ..default() })
+            .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() })
+            .set(LogPlugin { level: Level::ERROR, filter: String::new(), ..default() }),
+    );
+    app.add_plugins((EguiPlugin::default(), crate::simulation, plugin, crate::inspector::plugin));
+    app.insert_resource(session::Folder(assets.clone()));
+    if session::is_chosen(choice) {
+        app.insert_resource(session::Wish(Some(choice.clone())));
+    }
+    match app.run() {
+        AppExit::Success => ExitCode::SUCCESS,
+        AppExit::Error(code) => ExitCode::from(code.get()),
+    }
+}
+
+fn window() -> Window {
+    Window {
+        title: "Touchline".into(),
+        name: Some("touchline".into()),
+        resolution: WindowResolution::new(1280, 720),
+        present_mode: PresentMode::AutoVsync,
+        ..default()
+    }
+}
+
+/// The order of a frame in `Update`.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum FrameSystems {
+    /// Keys and pointer become actions.
+    Keys,
+    /// Actions become requests.
+    Input,
+    /// The ticks that are due.
+    Time,
+    /// The picture follows.
+    Picture,
+}
+
+fn plugin(app: &mut App) {
+    app.add_systems(Last, |time: Res<Time<Real>>, mut n: Local<(u32, f32, f32)>| { n.0 += 1; n.1 += time.delta_secs(); n.2 = n.2.max(time.delta_secs()); if n.1 > 2.0 { eprintln!("TMP {:.1} fps, worst {:.0} ms", n.0 as f32 / n.1, n.2 * 1e3); *n = (0, 0.0, 0.0); } });
+    app.insert_resource(ClearColor(colours::FLOOR))
+        .init_state::<state::Screen>()
+        .init_resource::<state::Selected>()
+        .init_resource::<state::Piloted>()
+        .init_resource::<state::Overlays>()
+        .init_resource::<state::Pace>()
+        .configure_sets(
+            Update,
+            (FrameSystems::Keys, FrameSystems::Input, FrameSystems::Time, FrameSystems::Picture)
+                .chain()
+                .run_if(in_state(state::Screen::Match)),
+        )
+        .add_plugins((layout::plugin, style::plugin, session::plugin, driver::plugin, shown::plugin))
+        .add_plugins((camera::plugin, pitch::plugin, robots::plugin, ball::plugin, rings::plugin, labels::plugin))
+        .add_plugins((actions::plugin, selection::plugin, pilot_seat::plugin, reload::plugin, calls::plugin))
+        .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin));
+}

@@ -1,0 +1,126 @@
+//! Keeps text on the pitch apart: a label goes beside its robot where there is room, and stays there while there is.
+
+use bevy_egui::egui;
+use egui::{Pos2, Rect, Vec2, vec2};
+
+/// What has been placed in this frame.
+#[derive(Clone, Debug, Default)]
+pub struct Placed {
+    /// Never covered.
+    labels: Vec<Rect>,
+    /// Covered only if there is no other place.
+    bodies: Vec<Rect>,
+}
+
+/// Which of its places a label has taken; the label keeps to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Choice(usize);
+
+/// Room between a label and what is beside it, in points.
+const GAP: f32 = 2.0;
+/// A label goes back to its first place when there is this much room, in points.
+const ROOM: f32 = 7.0;
+/// Where a label may go around its robot, best first: below, above, aside, and at the corners.
+const PLACES: [Vec2; 8] = [
+    vec2(0.0, 1.0),
+    vec2(0.0, -1.0),
+    vec2(1.0, 0.0),
+    vec2(-1.0, 0.0),
+    vec2(0.8, 0.8),
+    vec2(-0.8, 0.8),
+    vec2(0.8, -0.8),
+    vec2(-0.8, -0.8),
+];
+
+impl Placed {
+    /// Begins a frame.
+    pub fn clear(&mut self) {
+        self.labels.clear();
+        self.bodies.clear();
+    }
+
+    /// Something that labels had better not cover.
+    pub fn add_body(&mut self, body: Rect) {
+        self.bodies.push(body);
+    }
+
+    /// Finds a place for a label of a size around a robot whose outline reaches so far from its middle.
+    pub fn place(&mut self, middle: Pos2, reach: f32, size: Vec2, last: Choice) -> (Rect, Choice) {
+        let at = |place: usize| {
+            let way = PLACES[place];
+            Rect::from_center_size(middle + way * (vec2(reach, reach) + size / 2.0), size)
+        };
+        let kept = Choice(last.0.min(PLACES.len() - 1));
+        let home = (kept.0 != 0 && self.is_free(at(0).expand(ROOM))).then_some(0);
+        let order = || home.into_iter().chain([kept.0]).chain(0..PLACES.len());
+        let found = order()
+            .find(|place| self.is_free(at(*place)))
+            .or_else(|| order().find(|place| self.is_apart(at(*place))));
+        let (rect, choice) = match found {
+            Some(place) => (at(place), Choice(place)),
+            None => (self.below_all(at(0)), kept),
+        };
+        self.labels.push(rect);
+        (rect, choice)
+    }
+
+    fn is_apart(&self, rect: Rect) -> bool {
+        self.labels.iter().all(|other| !other.expand(GAP).intersects(rect))
+    }
+
+    fn is_free(&self, rect: Rect) -> bool {
+        self.is_apart(rect) && self.bodies.iter().all(|body| !body.intersects(rect))
+    }
+
+    /// The nearest place further down that covers no label.
+    fn below_all(&self, mut rect: Rect) -> Rect {
+        while let Some(other) = self.labels.iter().find(|other| other.expand(GAP).intersects(rect)) {
+            rect = rect.translate(vec2(0.0, other.bottom() + 2.0 * GAP - rect.top()));
+        }
+        rect
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::pos2;
+
+    use super::*;
+
+    const SIZE: Vec2 = vec2(30.0, 16.0);
+
+    #[test]
+    fn a_label_alone_is_below_its_robot() {
+        let mut placed = Placed::default();
+        let (rect, choice) = placed.place(pos2(100.0, 100.0), 20.0, SIZE, Choice::default());
+        assert_eq!(choice, Choice(0));
+        assert_eq!(rect.center_top(), pos2(100.0, 120.0));
+    }
+
+    #[test]
+    fn no_two_labels_overlap_however_many_robots_crowd_together() {
+        let mut placed = Placed::default();
+        for number in 0..16 {
+            let middle = pos2(100.0 + number as f32, 100.0 - 2.0 * number as f32);
+            placed.add_body(Rect::from_center_size(middle, vec2(40.0, 40.0)));
+            placed.place(middle, 20.0, SIZE, Choice::default());
+        }
+        for (i, a) in placed.labels.iter().enumerate() {
+            assert!(placed.labels[..i].iter().all(|b| !a.intersects(*b)), "{a} in {:?}", placed.labels);
+        }
+    }
+
+    #[test]
+    fn a_label_keeps_its_place_until_the_first_one_is_really_free() {
+        let middle = pos2(100.0, 100.0);
+        let below = |distance: f32| Rect::from_center_size(middle + vec2(0.0, distance), vec2(10.0, 10.0));
+        let choice_with = |body: Rect, last: Choice| {
+            let mut placed = Placed::default();
+            placed.add_body(body);
+            placed.place(middle, 20.0, SIZE, last).1
+        };
+        assert_eq!(choice_with(below(30.0), Choice(0)), Choice(1));
+        assert_eq!(choice_with(below(45.0), Choice(1)), Choice(1), "almost in the way");
+        assert_eq!(choice_with(below(60.0), Choice(1)), Choice(0));
+    }
+}

@@ -1,0 +1,161 @@
+//! The bar across the top: who plays, the score, the clock, and what the referee has just decided.
+
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+use egui::{Align2, Color32, FontId, pos2, vec2};
+
+use super::calls::{Call, Trouble};
+use super::colours::{self, egui as paint};
+use super::layout::{FreeArea, PanelSystems};
+use super::state::{Pace, Screen};
+use super::style::{font, panel_frame};
+use crate::geometry::Attacking;
+use crate::ids::Team;
+use crate::referee::{MatchState, Phase};
+use crate::strategy::Strategies;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(
+        EguiPrimaryContextPass,
+        (show_top_bar, show_trouble).chain().in_set(PanelSystems::Top).run_if(in_state(Screen::Match)),
+    );
+}
+
+const HEIGHT: f32 = 66.0;
+/// From the middle to where the teams' names begin.
+const SCORE_HALF: f32 = 52.0;
+
+/// Minutes and seconds of a time in seconds, rounded up, so that 0:00 means over.
+pub fn clock_text(seconds: f64) -> String {
+    let whole = seconds.max(0.0).ceil() as u64;
+    format!("{:02}:{:02}", whole / 60, whole % 60)
+}
+
+/// The state of play in words.
+fn phase_text(phase: Phase, paused: bool) -> &'static str {
+    match phase {
+        Phase::Finished => "Full time",
+        _ if paused => "Paused",
+        Phase::Initial => "Before the kick-off",
+        Phase::Ready => "Ready: robots take their places",
+        Phase::Set => "Set: robots stand still",
+        Phase::Playing => "In play",
+    }
+}
+
+fn show_top_bar(
+    mut contexts: EguiContexts,
+    mut area: ResMut<FreeArea>,
+    (state, strategies): (Res<MatchState>, Res<Strategies>),
+    (call, pace): (Res<Call>, Res<Pace>),
+) -> Result {
+    let panel = egui::Panel::top("top bar")
+        .exact_size(HEIGHT)
+        .resizable(false)
+        .frame(panel_frame(colours::PANEL, egui::Margin::ZERO));
+    area.dock(contexts.ctx_mut()?, "top bar", panel, |ui| {
+        let rect = ui.available_rect_before_wrap();
+        let (middle, first, second) = (rect.center().x, rect.top() + 22.0, rect.top() + 50.0);
+        let painter = ui.painter();
+        let write = |at: egui::Pos2, align, text: &str, font: FontId, colour: Color| {
+            painter.text(at, align, text, font, paint(colour))
+        };
+        let [home, away] = state.score;
+        write(pos2(middle, first), Align2::CENTER_CENTER, ":", font(26.0), colours::TEXT);
+        let beside = vec2(9.0, 0.0);
+        let score = pos2(middle, first);
+        write(score - beside, Align2::RIGHT_CENTER, &home.to_string(), font(30.0), colours::PILOT);
+        write(score + beside, Align2::LEFT_CENTER, &away.to_string(), font(30.0), colours::PILOT);
+        for team in Team::BOTH {
+            let side = if team == Team::Home { -1.0 } else { 1.0 };
+            let at = pos2(middle + side * SCORE_HALF, first);
+            let room = rect.width() / 2.0 - SCORE_HALF - 16.0;
+            show_team(ui, at, room, team, &strategies.of(team).name, state.attacking(team));
+        }
+        let half = if state.half == 1 { "first half" } else { "second half" };
+        let clock = format!("{} left, {half}", clock_text(state.time_left));
+        write(pos2(middle - 14.0, second), Align2::RIGHT_CENTER, &clock, font(16.0), colours::TEXT);
+        let at = pos2(middle + 14.0, second);
+        match call.text() {
+            Some(call) => write(at, Align2::LEFT_CENTER, call, font(16.0), colours::CALL),
+            None => {
+                let text = phase_text(state.phase, pace.paused);
+                write(at, Align2::LEFT_CENTER, text, font(16.0), colours::QUIET)
+            }
+        };
+        let stroke = (1.0, paint(colours::RAISED));
+        painter.vline(middle, egui::Rangef::new(second - 9.0, second + 9.0), stroke);
+        ui.allocate_rect(rect, egui::Sense::hover());
+    });
+    Ok(())
+}
+
+/// A team from the middle outwards: which way it plays, a plate in its colour, and its name.
+fn show_team(ui: &egui::Ui, at: egui::Pos2, room: f32, team: Team, name: &str, ends: Attacking) {
+    let (side, align) =
+        if team == Team::Home { (-1.0, Align2::RIGHT_CENTER) } else { (1.0, Align2::LEFT_CENTER) };
+    let painter = ui.painter();
+    let plate = egui::Rect::from_center_size(at + vec2(side * 8.0, 0.0), vec2(16.0, 16.0));
+    painter.rect_filled(plate, 3.0, paint(colours::team(team)));
+    let way = if ends == Attacking::East { 1.0 } else { -1.0 };
+    arrow(painter, plate.center(), way, paint(colours::ROBOT));
+    let side_name = if team == Team::Home { "Home" } else { "Away" };
+    let label = one_line(ui, &format!("{side_name}: {name}"), room - 28.0);
+    let text_at = align.anchor_size(at + vec2(side * 26.0, 0.0), label.size()).min;
+    painter.galley(text_at, label, paint(colours::team_text(team)));
+}
+
+/// A text on one line, cut where the room ends.
+fn one_line(ui: &egui::Ui, text: &str, room: f32) -> std::sync::Arc<egui::Galley> {
+    let format = egui::TextFormat { font_id: font(18.0), color: Color32::PLACEHOLDER, ..default() };
+    let mut job = egui::text::LayoutJob::single_section(text.to_owned(), format);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(20.0));
+    ui.painter().layout_job(job)
+}
+
+fn arrow(painter: &egui::Painter, at: egui::Pos2, way: f32, colour: Color32) {
+    let tip = at + vec2(4.5 * way, 0.0);
+    let back = at - vec2(3.5 * way, 0.0);
+    let points = vec![tip, back + vec2(0.0, 5.0), back - vec2(0.0, 5.0)];
+    painter.add(egui::Shape::convex_polygon(points, colour, egui::Stroke::NONE));
+}
+
+fn show_trouble(mut contexts: EguiContexts, mut area: ResMut<FreeArea>, mut trouble: ResMut<Trouble>) -> Result {
+    let Some(text) = trouble.0.clone() else { return Ok(()) };
+    let panel = egui::Panel::top("trouble")
+        .resizable(false)
+        .frame(panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 6)));
+    let closed = area.dock(contexts.ctx_mut()?, "trouble", panel, |ui| {
+        ui.horizontal(|ui| {
+            let close = ui.button("Close").on_hover_text("Take this line away. The match plays on with what it had");
+            ui.add(egui::Label::new(egui::RichText::new(text).color(Color32::WHITE)).wrap());
+            close.clicked()
+        })
+        .inner
+    });
+    if closed {
+        trouble.0 = None;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_clock_counts_down_to_zero_and_no_further() {
+        assert_eq!(clock_text(600.0), "10:00");
+        assert_eq!(clock_text(59.2), "01:00");
+        assert_eq!(clock_text(59.0), "00:59");
+        assert_eq!(clock_text(0.001), "00:01");
+        assert_eq!(clock_text(0.0), "00:00");
+        assert_eq!(clock_text(-1.0), "00:00");
+    }
+
+    #[test]
+    fn a_finished_match_is_not_paused() {
+        assert_eq!(phase_text(Phase::Finished, true), "Full time");
+        assert_eq!(phase_text(Phase::Playing, true), "Paused");
+    }
+}
