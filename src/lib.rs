@@ -23,6 +23,7 @@ pub mod ids;
 #[cfg(feature = "window")]
 pub mod inspector;
 pub mod motor;
+pub mod perception;
 pub mod physics;
 pub mod pilot;
 pub mod pitch;
@@ -31,6 +32,7 @@ pub mod referee;
 pub mod rng;
 pub mod robot;
 pub mod schedule;
+pub mod schemas;
 pub mod script;
 pub mod sense;
 pub mod strategy;

@@ -65,7 +65,8 @@ fn a_missing_file_is_said_to_be_missing() {
 
 #[test]
 fn the_strategy_in_the_readme_can_be_played() {
-    let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README.md");
+    let readme =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README.md");
     let example = readme.split("```ron").nth(1).and_then(|rest| rest.split("```").next());
     let source = Source::new("README.md", example.expect("the README has an example"));
     let strategy = Strategy::parse(&source).unwrap_or_else(|error| panic!("{error}"));

@@ -3,12 +3,6 @@
 //! At most one transition a decision, the first whose feature holds, as in Clay.
 
 #[cfg(test)]
-pub(crate) mod fixture;
-mod memory;
-mod perception;
-#[cfg(test)]
-mod perception_tests;
-#[cfg(test)]
 mod tests;
 
 use std::collections::VecDeque;
@@ -16,13 +10,11 @@ use std::collections::VecDeque;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-pub use memory::Memory;
-pub use perception::{Perception, PointSet};
-
 use crate::ball::Ball;
 use crate::clock::Clock;
 use crate::geometry::Zone;
 use crate::ids::RobotId;
+use crate::perception::{Memory, Perception};
 use crate::pitch::Pitch;
 use crate::referee::OffPitch;
 use crate::robot::Robot;

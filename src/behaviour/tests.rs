@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use bevy::ecs::system::RunSystemOnce;
 
-use super::fixture::{Situation, cye, pitch, strategy};
 use super::*;
 use crate::ball::BallKind;
 use crate::ids::Team;
+use crate::perception::fixture::{Situation, cye, pitch, strategy};
 use crate::rng::Seed;
 use crate::strategy::language::Point;
 

@@ -3,40 +3,25 @@
 //! Each schema turns beliefs into a vector, a weight beside it says how much it counts, and the assemblage combines them. The
 //! single contributions are kept for people to see.
 
-mod attraction;
-mod avoidance;
-mod combine;
-mod docking;
-mod dribbling;
-mod memory;
-mod noise;
-mod operators;
-mod schemas;
-mod swirl;
+mod evaluate;
 #[cfg(test)]
 mod tests;
 
 use bevy::prelude::*;
 
-pub use combine::{weighted_sum, winner_take_all};
-pub use docking::{DockLatch, Docking, misalignment};
-pub use memory::{Hold, Hysteresis, Keep, Remembered, Watchdog};
-pub use noise::Noise;
-pub use operators::{
-    average, closest, difference, farther_than, intercept, merge, midpoint, shifted, sweet_spot, within,
-    within_or_closest,
-};
-use schemas::evaluate;
+use evaluate::evaluate;
 
 use crate::ball::Ball;
-use crate::behaviour::{Activity, Memory, Mind, Perception, perception};
+use crate::behaviour::{Activity, Mind, perception};
 use crate::clock::Clock;
 use crate::geometry::{angle, wrap_angle};
 use crate::ids::RobotId;
+use crate::perception::{Memory, Perception};
 use crate::pitch::Pitch;
 use crate::referee::OffPitch;
 use crate::rng::{Dice, Seed};
 use crate::schedule::{Tick, TickSystems};
+use crate::schemas::combine::{weighted_sum, winner_take_all};
 use crate::strategy::{Assemblage, Combination, State, Strategies, Turn};
 
 pub(super) fn plugin(app: &mut App) {

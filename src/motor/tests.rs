@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use super::*;
-use crate::behaviour::fixture::Situation;
+use crate::perception::fixture::Situation;
 use crate::strategy::Term;
 use crate::strategy::language::{Point, Schema};
 

@@ -20,12 +20,13 @@ pub use rules::{Laws, Observation, RULES, Rule, referee};
 pub use state::{MatchState, Phase, Removal};
 
 use crate::ball::{Ball, Rolling};
-use crate::behaviour::{Activity, Memory};
+use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::drive::{RobotBodies, WheelCommand};
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
 use crate::motor::SteeringIntent;
+use crate::perception::Memory;
 use crate::physics::Bodies;
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};

@@ -9,13 +9,14 @@ use bevy_rapier2d::prelude::*;
 
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
 
-use crate::behaviour::{Activity, Memory};
+use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::drive::WheelCommand;
 use crate::game::MatchEntity;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
 use crate::motor::{Contributions, MotorDice, SteeringIntent};
+use crate::perception::Memory;
 use crate::rng::Seed;
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;

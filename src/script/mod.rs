@@ -8,9 +8,10 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use crate::behaviour::{Activity, Memory};
+use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
+use crate::perception::Memory;
 use crate::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::{Strategies, Strategy};

@@ -1,8 +1,8 @@
 //! Requests, carried out by hand.
 
 use super::*;
-use crate::behaviour::fixture::strategy;
 use crate::ids::Team::{Away, Home};
+use crate::perception::fixture::strategy;
 
 /// Two schemas in one assemblage, one machine, two roles; the first one plays.
 const PIECES: &str = r#"
@@ -102,9 +102,9 @@ fn levers_are_kept_within_their_stops() {
 fn requests_for_unknown_robots_are_ignored_and_the_others_carried_out() {
     let mut app = app();
     let requests =
-        [Request::TakeOver(NOBODY), Request::HandBack(NOBODY), steer(NOBODY, 1.0), Request::TakeOver(FIRST)];
+        [Request::TakeOver(NOBODY), Request::HandBack(NOBODY), steer(NOBODY, 1.0), Request::TakeOver(SECOND)];
     ask(&mut app, requests);
-    assert_eq!(pilots(&mut app), [(FIRST, Pilot::default())]);
+    assert_eq!(pilots(&mut app), [(SECOND, Pilot::default())]);
 }
 
 #[test]

@@ -4,10 +4,10 @@ use bevy::ecs::system::RunSystemOnce;
 
 use super::*;
 use crate::ball::BallKind;
-use crate::behaviour::fixture::cye;
 use crate::data::Source;
 use crate::drive::WheelSpeeds;
 use crate::ids::Team::{Away, Home};
+use crate::perception::fixture::cye;
 use crate::referee::RuleBook;
 
 /// Bodies and eyes, moved by hand.

@@ -115,11 +115,15 @@ fn fit_on_demand(mut actions: MessageReader<Action>, mut sight: ResMut<Sight>) {
     }
 }
 
-fn zoom(mut wheel: MessageReader<MouseWheel>, pointer: Res<Pointer>, pitch: Res<Pitch>, mut sight: ResMut<Sight>) {
+fn zoom(
+    mut wheel: MessageReader<MouseWheel>,
+    pointer: Res<Pointer>,
+    pitch: Res<Pitch>,
+    mut sight: ResMut<Sight>,
+) {
     const LINE: f32 = 1.0 / 40.0;
-    let turned: f32 = (wheel.read())
-        .map(|turn| turn.y * if turn.unit == MouseScrollUnit::Line { 1.0 } else { LINE })
-        .sum();
+    let turned: f32 =
+        (wheel.read()).map(|turn| turn.y * if turn.unit == MouseScrollUnit::Line { 1.0 } else { LINE }).sum();
     let Some(at) = pointer.over_pitch.filter(|_| turned != 0.0) else { return };
     let smallest = FARTHEST * sight.fit(zone_to_show(&pitch, std::iter::empty())).scale;
     *sight = sight.zoomed(bevy::math::ops::powf(1.15, turned), at, smallest);

@@ -54,7 +54,8 @@ impl Form {
             .collect();
         for (team, chosen) in chosen.into_iter().enumerate() {
             let place = self.offers.iter().position(|offer| Some(&offer.file) == chosen.as_ref());
-            self.teams[team] = place.unwrap_or(if team == 0 { self.offers.len().saturating_sub(1) } else { 0 });
+            self.teams[team] =
+                place.unwrap_or(if team == 0 { self.offers.len().saturating_sub(1) } else { 0 });
         }
     }
 
@@ -69,7 +70,8 @@ impl Form {
     fn seats(&self) -> impl Iterator<Item = RobotId> + '_ {
         Team::BOTH.into_iter().flat_map(|team| {
             let offer = self.offers.get(self.teams[team.index()]);
-            let players = offer.and_then(|offer| offer.found.as_ref().ok()).map_or(0, |(_, players)| *players);
+            let players =
+                offer.and_then(|offer| offer.found.as_ref().ok()).map_or(0, |(_, players)| *players);
             (0..players).map(move |number| RobotId::new(team, number as u8))
         })
     }
@@ -82,17 +84,20 @@ impl Form {
                 ui.label(name);
                 let offers = &self.offers;
                 let title = |index: usize| offers.get(index).map_or("none", Offer::title);
-                egui::ComboBox::from_id_salt(name)
-                    .width(width)
-                    .truncate()
-                    .show_index(ui, &mut self.teams[team], offers.len(), title);
+                egui::ComboBox::from_id_salt(name).width(width).truncate().show_index(
+                    ui,
+                    &mut self.teams[team],
+                    offers.len(),
+                    title,
+                );
                 ui.end_row();
             }
             ui.label("You drive");
             self.show_seats(ui, width);
             ui.end_row();
             ui.label("A half");
-            let minutes = egui::DragValue::new(&mut self.half_minutes).range(0.5..=45.0).speed(0.1).suffix(" minutes");
+            let minutes =
+                egui::DragValue::new(&mut self.half_minutes).range(0.5..=45.0).speed(0.1).suffix(" minutes");
             ui.add(minutes).on_hover_text("Drag, or click and type");
             ui.end_row();
             ui.label("Seed");

@@ -33,7 +33,9 @@ fn no_display() -> Option<String> {
 fn no_adapter() -> Option<String> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
     let found = bevy::tasks::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()));
-    found.err().map(|_| "there is no graphics adapter, not even one in software (Mesa's lavapipe is one)".into())
+    found
+        .err()
+        .map(|_| "there is no graphics adapter, not even one in software (Mesa's lavapipe is one)".into())
 }
 
 #[cfg(target_os = "linux")]

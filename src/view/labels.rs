@@ -58,11 +58,20 @@ struct Labelled {
 }
 
 /// What a label says: lines with their colours.
-fn lines(of: &LabelledItem, strategy: &Strategy, state: &MatchState, with_activity: bool) -> Vec<(String, Color)> {
+fn lines(
+    of: &LabelledItem,
+    strategy: &Strategy,
+    state: &MatchState,
+    with_activity: bool,
+) -> Vec<(String, Color)> {
     let mut lines = Vec::with_capacity(3);
     let tag = |role: usize| strategy.roles.get(role).map_or("", |role| role.tag.as_str());
     let (own, acting) = (of.role.0, of.activity.acting_as);
-    let role = if tag(own) == tag(acting) { tag(own).to_owned() } else { format!("{} as {}", tag(own), tag(acting)) };
+    let role = if tag(own) == tag(acting) {
+        tag(own).to_owned()
+    } else {
+        format!("{} as {}", tag(own), tag(acting))
+    };
     lines.push((role, colours::PILOT));
     if of.off_pitch {
         lines.push((off_text(state, *of.id), colours::PENALTY));
@@ -99,7 +108,10 @@ fn write_on_pitch(
     kept.placed.clear();
     for (shown, _) in &shown {
         let reach = ball.get(shown.body).map_or(0.6 * REACH, |ball| ball.kind.radius) * sight.scale;
-        let body = egui::Rect::from_center_size(sight.to_screen(shown.pose.position), egui::Vec2::splat(2.0 * reach));
+        let body = egui::Rect::from_center_size(
+            sight.to_screen(shown.pose.position),
+            egui::Vec2::splat(2.0 * reach),
+        );
         kept.placed.add_body(body);
     }
     let size = (NUMBER * sight.scale).clamp(SMALL, LARGEST_NUMBER).round();
@@ -110,7 +122,9 @@ fn write_on_pitch(
         let number = plate.of.number.to_string();
         painter.text(at, egui::Align2::CENTER_CENTER, number, font(size), paint(colours::ROBOT));
         let unit = shown.iter().find(|(shown, _)| shown.robot == Some(plate.of)).map(|(unit, _)| unit);
-        let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else { continue };
+        let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else {
+            continue;
+        };
         let is_selected = selected.0 == Some(plate.of);
         if !(overlays.labels || is_selected || robot.off_pitch) {
             continue;

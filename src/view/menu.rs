@@ -61,7 +61,9 @@ fn show_menu(
     ui.add_space((area.0.height() * 0.14).max(12.0));
     ui.vertical_centered(|ui| {
         ui.label(RichText::new("Touchline").size(52.0).color(Color32::WHITE));
-        ui.label(RichText::new("Robot soccer, as in the RoboCup hall of 2001").size(18.0).color(Color32::WHITE));
+        ui.label(
+            RichText::new("Robot soccer, as in the RoboCup hall of 2001").size(18.0).color(Color32::WHITE),
+        );
     });
     ui.add_space(36.0);
     ui.horizontal_top(|ui| {
@@ -84,8 +86,10 @@ fn show_menu(
     if let Some(trouble) = &trouble.0 {
         ui.add_space(20.0);
         ui.vertical_centered(|ui| {
-            let frame = super::style::panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 8)).corner_radius(6);
-            frame.show(ui, |ui| ui.add(egui::Label::new(RichText::new(trouble).color(Color32::WHITE)).wrap()));
+            let frame =
+                super::style::panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 8)).corner_radius(6);
+            frame
+                .show(ui, |ui| ui.add(egui::Label::new(RichText::new(trouble).color(Color32::WHITE)).wrap()));
         });
     }
     Ok(())
@@ -117,7 +121,9 @@ fn card<R>(ui: &mut egui::Ui, title: &str, text: &str, foot: impl FnOnce(&mut eg
 pub fn big_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
     let text = RichText::new(text).size(17.0).color(Color32::WHITE);
     let text = (egui::Atom::grow(), text, egui::Atom::grow());
-    ui.add(egui::Button::new(text).fill(paint(colours::ACCENT).gamma_multiply(0.8)).min_size(vec2(120.0, 36.0)))
+    ui.add(
+        egui::Button::new(text).fill(paint(colours::ACCENT).gamma_multiply(0.8)).min_size(vec2(120.0, 36.0)),
+    )
 }
 
 /// A pitch to rest the eyes on: stripes, a line and a circle.

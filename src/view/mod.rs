@@ -89,7 +89,15 @@ enum FrameSystems {
 }
 
 fn plugin(app: &mut App) {
-    app.add_systems(Last, |time: Res<Time<Real>>, mut n: Local<(u32, f32, f32)>| { n.0 += 1; n.1 += time.delta_secs(); n.2 = n.2.max(time.delta_secs()); if n.1 > 2.0 { eprintln!("TMP {:.1} fps, worst {:.0} ms", n.0 as f32 / n.1, n.2 * 1e3); *n = (0, 0.0, 0.0); } });
+    app.add_systems(Last, |time: Res<Time<Real>>, mut n: Local<(u32, f32, f32)>| {
+        n.0 += 1;
+        n.1 += time.delta_secs();
+        n.2 = n.2.max(time.delta_secs());
+        if n.1 > 2.0 {
+            eprintln!("TMP {:.1} fps, worst {:.0} ms", n.0 as f32 / n.1, n.2 * 1e3);
+            *n = (0, 0.0, 0.0);
+        }
+    });
     app.insert_resource(ClearColor(colours::FLOOR))
         .init_state::<state::Screen>()
         .init_resource::<state::Selected>()
@@ -103,7 +111,14 @@ fn plugin(app: &mut App) {
                 .run_if(in_state(state::Screen::Match)),
         )
         .add_plugins((layout::plugin, style::plugin, session::plugin, driver::plugin, shown::plugin))
-        .add_plugins((camera::plugin, pitch::plugin, robots::plugin, ball::plugin, rings::plugin, labels::plugin))
+        .add_plugins((
+            camera::plugin,
+            pitch::plugin,
+            robots::plugin,
+            ball::plugin,
+            rings::plugin,
+            labels::plugin,
+        ))
         .add_plugins((actions::plugin, selection::plugin, pilot_seat::plugin, reload::plugin, calls::plugin))
         .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin));
 }

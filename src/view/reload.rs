@@ -20,9 +20,10 @@ use crate::script::{Request, Requests};
 use crate::strategy::Strategy;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Watched>()
-        .add_observer(watch_files)
-        .add_systems(Update, take_over_changes.run_if(in_state(Screen::Match).and_then(on_real_timer(INTERVAL))));
+    app.init_resource::<Watched>().add_observer(watch_files).add_systems(
+        Update,
+        take_over_changes.run_if(in_state(Screen::Match).and_then(on_real_timer(INTERVAL))),
+    );
 }
 
 /// Time between two looks; a change is taken over at the second one that shows it.
@@ -94,7 +95,9 @@ fn take_over_changes(
                 }
                 requests.ask(Request::ChangeStrategy { team: file.team, strategy });
             }
-            Err(error) => trouble.0 = Some(format!("{error}. The {} team plays on with what it had", file.team)),
+            Err(error) => {
+                trouble.0 = Some(format!("{error}. The {} team plays on with what it had", file.team))
+            }
         }
     }
 }

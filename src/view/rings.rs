@@ -29,7 +29,9 @@ fn draw_rings(
     mut materials: ResMut<Assets<ColorMaterial>>,
 ) {
     let selected = Team::BOTH.map(|team| (Ring::Selected(team), colours::team(team), 0.5, 0.035));
-    for (tells, colour, radius, width) in selected.into_iter().chain([(Ring::Piloted, colours::PILOT, 0.45, 0.05)]) {
+    for (tells, colour, radius, width) in
+        selected.into_iter().chain([(Ring::Piloted, colours::PILOT, 0.45, 0.05)])
+    {
         commands.spawn((
             Drawn,
             tells,

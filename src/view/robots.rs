@@ -109,7 +109,13 @@ fn draw_plate(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, mid
     fill(parent, meshes, &paint.team, polygon(&box_at(middle, Vec2::splat(half))), STEP / 2.0 + 0.03);
 }
 
-fn fill(parent: &mut Parent, meshes: &mut Assets<Mesh>, material: &Handle<ColorMaterial>, shape: Mesh, level: f32) {
+fn fill(
+    parent: &mut Parent,
+    meshes: &mut Assets<Mesh>,
+    material: &Handle<ColorMaterial>,
+    shape: Mesh,
+    level: f32,
+) {
     parent.spawn((
         Drawn,
         Mesh2d(meshes.add(shape)),

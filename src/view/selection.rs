@@ -76,7 +76,12 @@ fn follow_pointer(
     Ok(())
 }
 
-fn select_by_click(pointer: Res<Pointer>, sight: Res<Sight>, shown: Query<&Shown>, mut selected: ResMut<Selected>) {
+fn select_by_click(
+    pointer: Res<Pointer>,
+    sight: Res<Sight>,
+    shown: Query<&Shown>,
+    mut selected: ResMut<Selected>,
+) {
     let Some(at) = pointer.clicked else { return };
     let point = sight.to_pitch(at);
     let robots = shown.iter().filter_map(|shown| Some((shown.robot?, shown.pose)));

@@ -21,7 +21,8 @@ fn share(played: f64, book: &RuleBook) -> f32 {
 
 /// Shows the line, with a tooltip for the event under the pointer.
 pub fn show_time_line(ui: &mut egui::Ui, events: &[Happening], now: f64, book: &RuleBook) {
-    let (rect, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
+    let (rect, response) =
+        ui.allocate_exact_size(egui::vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
     let painter = ui.painter();
     let line = rect.shrink2(egui::vec2(44.0, 0.0));
     let x = |played: f64| line.left() + share(played, book) * line.width();
@@ -47,7 +48,9 @@ pub fn show_time_line(ui: &mut egui::Ui, events: &[Happening], now: f64, book: &
         .map(|event| format!("{}  {}", clock_text(event.played.floor()), event.decision))
         .collect();
     if told.is_empty() {
-        response.on_hover_text("The match so far: goals in the colour of their team, other calls as small strokes");
+        response.on_hover_text(
+            "The match so far: goals in the colour of their team, other calls as small strokes",
+        );
     } else {
         response.on_hover_text(told.join("\n"));
     }

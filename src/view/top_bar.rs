@@ -120,14 +120,19 @@ fn arrow(painter: &egui::Painter, at: egui::Pos2, way: f32, colour: Color32) {
     painter.add(egui::Shape::convex_polygon(points, colour, egui::Stroke::NONE));
 }
 
-fn show_trouble(mut contexts: EguiContexts, mut area: ResMut<FreeArea>, mut trouble: ResMut<Trouble>) -> Result {
+fn show_trouble(
+    mut contexts: EguiContexts,
+    mut area: ResMut<FreeArea>,
+    mut trouble: ResMut<Trouble>,
+) -> Result {
     let Some(text) = trouble.0.clone() else { return Ok(()) };
     let panel = egui::Panel::top("trouble")
         .resizable(false)
         .frame(panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 6)));
     let closed = area.dock(contexts.ctx_mut()?, "trouble", panel, |ui| {
         ui.horizontal(|ui| {
-            let close = ui.button("Close").on_hover_text("Take this line away. The match plays on with what it had");
+            let close =
+                ui.button("Close").on_hover_text("Take this line away. The match plays on with what it had");
             ui.add(egui::Label::new(egui::RichText::new(text).color(Color32::WHITE)).wrap());
             close.clicked()
         })

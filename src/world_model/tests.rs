@@ -6,9 +6,9 @@ use std::sync::Arc;
 use bevy::ecs::system::RunSystemOnce;
 
 use super::*;
-use crate::behaviour::fixture::{cye, pitch};
 use crate::data::Source;
 use crate::ids::Team::{Away, Home};
+use crate::perception::fixture::{cye, pitch};
 use crate::rng::Seed;
 use crate::sense::{MemorySpans, Sensing};
 

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 use bevy::prelude::Vec2;
 
 use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile};
+use super::language::Feature;
 use super::{
     Assemblage, Combination, Machine, Part, RoleSpec, State, Strategy, SubRole, Term, Transition, Turn,
 };
-use super::language::Feature;
 use crate::data::{DataError, Field, Source, no_such};
 use crate::geometry::Zone;
 

@@ -1,16 +1,25 @@
 //! The percepts and features of a strategy, worked out from one robot's beliefs. Pure: beliefs, time and memory are arguments.
 
+#[cfg(test)]
+pub(crate) mod fixture;
+mod memory;
+#[cfg(test)]
+mod tests;
+
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::memory::Memory;
+pub use memory::Memory;
+
 use crate::geometry::{Pose, Zone, angle, wrap_angle};
 use crate::ids::Team;
-use crate::motor::{
-    Keep, average, closest, difference, farther_than, intercept, merge, midpoint, misalignment, shifted,
-    sweet_spot, within, within_or_closest,
-};
 use crate::pitch::Pitch;
+use crate::schemas::docking::misalignment;
+use crate::schemas::memory::Keep;
+use crate::schemas::operators::{
+    average, closest, difference, farther_than, intercept, merge, midpoint, shifted, sweet_spot, within,
+    within_or_closest,
+};
 use crate::strategy::language::{Feature, Point, Points, ZoneName};
 use crate::world_model::{EXPECTED_ROLLING, WorldModel, roll_on};
 

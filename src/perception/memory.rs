@@ -5,7 +5,9 @@
 
 use bevy::prelude::*;
 
-use crate::motor::{DockLatch, Hold, Hysteresis, Noise, Remembered, Watchdog};
+use crate::schemas::docking::DockLatch;
+use crate::schemas::memory::{Hold, Hysteresis, Remembered, Watchdog};
+use crate::schemas::noise::Noise;
 
 /// The memories of one robot's operators.
 #[derive(Component, Clone, Debug, Default)]

@@ -2,12 +2,12 @@
 
 use bevy::prelude::*;
 
-use super::docking::{Docking, dock_behind};
-use super::dribbling::dribble;
-use super::{attraction, avoidance, swirl};
-use crate::behaviour::{Memory, Perception};
-use crate::motor::shifted;
+use crate::perception::{Memory, Perception};
 use crate::rng::Dice;
+use crate::schemas::docking::{Docking, dock_behind};
+use crate::schemas::dribbling::dribble;
+use crate::schemas::operators::shifted;
+use crate::schemas::{attraction, avoidance, swirl};
 use crate::strategy::language::{Points, Schema};
 
 /// The vector of a schema: its angle is where to go, its length how fast, 0 to 1 and more where it is urgent. `None` while
