@@ -5,20 +5,18 @@
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
 
 use crate::clock::Clock;
-use crate::drive::push_bodies;
 use crate::geometry::{Pose, unit};
-use crate::physics::Bodies;
+use crate::ids::RobotId;
+use crate::physics::{Bodies, step};
 use crate::rng::{Dice, Seed};
 use crate::robot::{Robot, Scoop};
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(
-        Tick,
-        (hold_ball_in_scoops, roll_ball).chain().after(push_bodies).in_set(TickSystems::Drive),
-    );
+    app.add_systems(Tick, (hold_ball_in_scoops, roll_ball).chain().before(step).in_set(TickSystems::Physics));
 }
 
 /// The ball, with the part of its spin that rolling needs.
@@ -142,10 +140,13 @@ fn hold_ball_in_scoops(
     clock: Res<Clock>,
     mut bodies: Bodies,
     ball: Single<(&Ball, &RapierRigidBodyHandle, &Pose)>,
-    robots: Query<(&Robot, &RapierRigidBodyHandle, &Pose)>,
+    robots: Query<(&RobotId, &Robot, &RapierRigidBodyHandle, &Pose)>,
 ) {
     let (ball, ball_handle, ball_pose) = ball.into_inner();
-    for (robot, handle, pose) in &robots {
+    let mut near: SmallVec<[_; 8]> =
+        robots.iter().filter(|(.., pose)| pose.position.distance(ball_pose.position) < NEAR).collect();
+    near.sort_unstable_by_key(|(id, ..)| **id);
+    for (_, robot, handle, pose) in near {
         let Some(scoop) = &robot.kind.scoop else { continue };
         let offset = pose.to_local(ball_pose.position);
         let gap = offset.x - robot.kind.body.length / 2.0 - ball.kind.radius;
@@ -165,6 +166,9 @@ fn hold_ball_in_scoops(
         }
     }
 }
+
+/// Farther from the ball than this no robot can hold it, m.
+const NEAR: f32 = 0.5;
 
 #[cfg(test)]
 mod tests {

@@ -56,6 +56,7 @@ pub fn simulation(app: &mut App) {
         drive::plugin,
         ball::plugin,
         referee::plugin,
+        game::plugin,
         record::plugin,
     ));
 }

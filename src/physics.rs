@@ -63,8 +63,8 @@ impl Bodies<'_, '_> {
     }
 }
 
-/// Opens an empty physical world with the walls of a pitch; whatever was there before is gone.
-pub fn open_world(world: &mut World, pitch: &Pitch) {
+/// Opens an empty physical world with the walls of a pitch, each with a mark; whatever was there before is gone.
+pub fn open_world(world: &mut World, pitch: &Pitch, mark: impl Bundle + Copy) {
     let mut contexts = world.query_filtered::<Entity, With<RapierContextSimulation>>();
     for context in contexts.iter(world).collect::<Vec<_>>() {
         world.despawn(context);
@@ -75,7 +75,7 @@ pub fn open_world(world: &mut World, pitch: &Pitch) {
     for (at, half) in wall_boxes(pitch) {
         world.spawn((
             Name::new("wall"),
-            crate::game::MatchEntity,
+            mark,
             Transform::from_translation(at.extend(0.0)),
             Collider::cuboid(half.x, half.y),
             Friction { coefficient: pitch.walls.friction, combine_rule: CoefficientCombineRule::Min },
@@ -108,7 +108,7 @@ pub fn wall_boxes(pitch: &Pitch) -> Vec<(Vec2, Vec2)> {
     boxes
 }
 
-fn step(
+pub(crate) fn step(
     clock: Res<Clock>,
     world: Single<(
         &mut RapierContextSimulation,

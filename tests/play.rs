@@ -9,8 +9,8 @@ use touchline::geometry::Pose;
 use touchline::ids::RobotId;
 use touchline::motor::SteeringIntent;
 use touchline::pitch::Pitch;
-use touchline::referee::{OffPitch, Phase};
-use touchline::robot::Robot;
+use touchline::referee::Phase;
+use touchline::robot::{OffPitch, Robot};
 use touchline::sense::Sensing;
 use touchline::world_model::WorldModel;
 

@@ -6,10 +6,9 @@ mod differential;
 mod wheels;
 
 use bevy::prelude::*;
-use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
 
-pub use differential::{WheelSpeeds, steer};
+pub use differential::steer;
 pub use wheels::{Rigid, push_wheels};
 
 use crate::clock::Clock;
@@ -17,27 +16,15 @@ use crate::geometry::wrap_angle;
 use crate::motor::SteeringIntent;
 use crate::physics::Bodies;
 use crate::pilot::Pilot;
-use crate::referee::{MatchState, OffPitch, Phase};
-use crate::robot::{DifferentialDrive, Drive, Robot, TrailerKind};
+use crate::referee::{MatchState, Phase};
+use crate::robot::{
+    DifferentialDrive, Drive, OffPitch, Robot, RobotBodies, TrailerKind, WheelCommand, WheelSpeeds,
+};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::Odometry;
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, (command_wheels, push_bodies).chain().in_set(TickSystems::Drive));
-}
-
-/// The wheel speeds that a robot's motors are told, after the limit of acceleration.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-pub struct WheelCommand {
-    pub speeds: WheelSpeeds,
-}
-
-/// Rapier's handles of a robot's bodies.
-#[derive(Component, Clone, Copy, Debug)]
-#[component(immutable)]
-pub struct RobotBodies {
-    pub unit: RapierRigidBodyHandle,
-    pub trailer: Option<RapierRigidBodyHandle>,
 }
 
 type Commanded<'a> =
@@ -72,11 +59,7 @@ fn intended(intent: SteeringIntent, heading: f32, drive: &DifferentialDrive) -> 
     }
 }
 
-pub(crate) fn push_bodies(
-    clock: Res<Clock>,
-    mut bodies: Bodies,
-    robots: Query<(&Robot, &RobotBodies, &WheelCommand)>,
-) {
+fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, robots: Query<(&Robot, &RobotBodies, &WheelCommand)>) {
     for (robot, handles, command) in &robots {
         let Drive::Differential(drive) = &robot.kind.drive;
         let Some(mut unit) = bodies.get(&handles.unit).map(rigid) else { continue };

@@ -5,8 +5,7 @@
 
 use bevy::prelude::*;
 
-use super::differential::WheelSpeeds;
-use crate::robot::{DifferentialDrive, TrailerKind};
+use crate::robot::{DifferentialDrive, TrailerKind, WheelSpeeds};
 
 const PASSES: usize = 4;
 const GRAVITY: f32 = 9.81;

@@ -1,26 +1,30 @@
 //! A match: read as a [`MatchPlan`], started in a world, played tick by tick.
 
+mod carry;
 mod plan;
+mod spawn;
 
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
 pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
 
-use crate::ball::{Ball, BallDice, Rolling};
 use crate::clock::Clock;
-use crate::drive::RobotBodies;
-use crate::geometry::{Pose, Twist};
 use crate::ids::Team;
 use crate::physics::{open_world, register_bodies};
 use crate::pilot::Pilot;
 use crate::record::Record;
 use crate::referee::{Calls, MatchState, Phase, Whistles};
 use crate::rng::Seed;
-use crate::robot::{Entry, ball_body, spawn_robot};
+use crate::robot::RobotBodies;
 use crate::schedule::Tick;
 use crate::script::Requests;
 use crate::strategy::Strategies;
+use spawn::{spawn_ball, spawn_planned};
+
+pub(super) fn plugin(app: &mut App) {
+    carry::plugin(app);
+}
 
 /// On every entity that belongs to the match being played and goes with it.
 #[derive(Component, Clone, Copy, Debug, Default)]
@@ -43,9 +47,9 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
     world.insert_resource(Whistles::default());
     world.insert_resource(Calls::default());
-    world.insert_resource(Record::new(plan));
+    world.insert_resource(Record::new(seed, plan.robots()));
     world.insert_resource(Requests::default());
-    open_world(world, &plan.pitch);
+    open_world(world, &plan.pitch, MatchEntity);
     spawn_ball(world, plan, seed);
     let robots: Vec<_> = plan.robots().map(|id| (id, spawn_planned(world, plan, id, seed, &clock))).collect();
     register_bodies(world);
@@ -57,39 +61,6 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
             world.entity_mut(unit).insert(Pilot::default());
         }
     }
-}
-
-fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
-    let kind = plan.ball;
-    world.spawn((
-        Name::new("ball"),
-        MatchEntity,
-        Ball { kind },
-        BallDice::new(seed),
-        Rolling::default(),
-        Pose::default(),
-        Twist::default(),
-        ball_body(kind.radius, kind.mass, kind.friction, kind.restitution),
-    ));
-}
-
-fn spawn_planned(
-    world: &mut World,
-    plan: &MatchPlan,
-    id: crate::ids::RobotId,
-    seed: Seed,
-    clock: &Clock,
-) -> (Entity, Option<Entity>) {
-    let team = plan.team(id.team);
-    let entry = Entry {
-        id,
-        role: team.strategy.players[usize::from(id.number)],
-        kind: team.kind.clone(),
-        sensing: team.sensing.clone(),
-        strategy: &team.strategy,
-        seed,
-    };
-    spawn_robot(world, &entry, clock)
 }
 
 /// A match without a window, run as fast as it can.

@@ -7,13 +7,32 @@ use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
 use super::Inspector;
+use crate::clock::Clock;
+use crate::geometry::{Pose, Twist};
+use crate::pilot::Pilot;
+use crate::teamwork::Role;
 use crate::view::layout::PanelSystems;
 
 pub(super) fn plugin(app: &mut App) {
+    register_what_can_be_looked_at(app);
     app.add_plugins(DefaultInspectorConfigPlugin).add_systems(
         EguiPrimaryContextPass,
         show_world.in_set(PanelSystems::Floating).run_if(|inspector: Res<Inspector>| inspector.world),
     );
+}
+
+/// The simulation's own types that can be reflected; without this the view only names them.
+fn register_what_can_be_looked_at(app: &mut App) {
+    app.register_type::<Pose>()
+        .register_type::<Twist>()
+        .register_type::<Role>()
+        .register_type::<Pilot>()
+        .register_type::<Clock>()
+        .register_type_data::<Pose, ReflectComponent>()
+        .register_type_data::<Twist, ReflectComponent>()
+        .register_type_data::<Role, ReflectComponent>()
+        .register_type_data::<Pilot, ReflectComponent>()
+        .register_type_data::<Clock, ReflectResource>();
 }
 
 fn show_world(world: &mut World) -> Result {

@@ -11,11 +11,11 @@ use xxhash_rust::xxh3::xxh3_64_with_seed;
 use crate::ball::Ball;
 use crate::behaviour::Activity;
 use crate::clock::Clock;
-use crate::game::MatchPlan;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
-use crate::referee::{MatchState, OffPitch, Phase};
-use crate::robot::Trailer;
+use crate::referee::{MatchState, Phase};
+use crate::rng::Seed;
+use crate::robot::{OffPitch, Trailer};
 use crate::schedule::{Tick, TickSystems};
 use crate::teamwork::Role;
 
@@ -30,8 +30,6 @@ pub struct Record {
     pub digest: u64,
     /// Seconds of play in which each team was the last one near the ball, home first.
     pub possession: [f64; 2],
-    /// Mean x of the ball in the pitch frame would be this divided by the playing time, m·s.
-    ball_x: f64,
     /// Seconds with two or more robots of a team within [`CROWD`] of the ball, home first.
     pub crowding: [f64; 2],
     /// Seconds of play.
@@ -48,14 +46,14 @@ const POSSESSION: f32 = 0.5;
 pub const CROWD: f32 = 1.0;
 
 impl Record {
-    pub fn new(plan: &MatchPlan) -> Record {
+    /// An empty record of a match between these robots, in order.
+    pub fn new(seed: Seed, robots: impl IntoIterator<Item = RobotId>) -> Record {
         Record {
-            digest: xxh3_64_with_seed(plan.name.as_bytes(), plan.seed),
+            digest: seed.0,
             possession: [0.0; 2],
-            ball_x: 0.0,
             crowding: [0.0; 2],
             played: 0.0,
-            driven: plan.robots().map(|robot| (robot, 0.0)).collect(),
+            driven: robots.into_iter().map(|robot| (robot, 0.0)).collect(),
             last_near: None,
         }
     }
@@ -119,7 +117,6 @@ fn measure(
     }
     let dt = f64::from(clock.dt);
     record.played += dt;
-    record.ball_x += f64::from(ball.position.x) * dt;
     let mut near = [0; 2];
     let mut nearest: Option<(f32, RobotId)> = None;
     for (&id, pose, twist) in &robots {

@@ -28,11 +28,11 @@ pub enum Request {
     TakeOver(RobotId),
     /// The robot's strategy takes it back.
     HandBack(RobotId),
-    /// What the person does to the robot; see [`Pilot`].
+    /// What the person at the controls does to the robot; see [`Pilot`]. Nothing, if nobody drives it.
     Steer { robot: RobotId, pilot: Pilot },
     /// The weight of a term of an assemblage, both by index.
     SetWeight { team: Team, assemblage: usize, term: usize, weight: f32 },
-    /// The team plays on with another strategy, or with a changed one.
+    /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow).
     ChangeStrategy { team: Team, strategy: Arc<Strategy> },
 }
 
@@ -50,7 +50,7 @@ impl Requests {
     }
 }
 
-type Scripted<'a> = (Entity, &'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory);
+type Scripted<'a> = (Entity, &'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory, Has<Pilot>);
 
 fn carry_out_requests(
     clock: Res<Clock>,
@@ -65,20 +65,23 @@ fn carry_out_requests(
     let entity_of = |wanted: RobotId, robots: &Query<Scripted>| {
         robots.iter().find(|(_, id, ..)| **id == wanted).map(|(entity, ..)| entity)
     };
+    let mut seats: Vec<RobotId> = robots.iter().filter(|seat| seat.5).map(|(_, id, ..)| *id).collect();
     for request in std::mem::take(&mut requests.0) {
         match request {
             Request::TakeOver(robot) => {
+                seats.push(robot);
                 if let Some(entity) = entity_of(robot, &robots) {
                     commands.entity(entity).insert(Pilot::default());
                 }
             }
             Request::HandBack(robot) => {
+                seats.retain(|seat| *seat != robot);
                 if let Some(entity) = entity_of(robot, &robots) {
                     commands.entity(entity).remove::<Pilot>();
                 }
             }
             Request::Steer { robot, pilot } => {
-                if let Some(entity) = entity_of(robot, &robots) {
+                if let Some(entity) = entity_of(robot, &robots).filter(|_| seats.contains(&robot)) {
                     commands.entity(entity).insert(pilot.limited());
                 }
             }
@@ -104,8 +107,12 @@ fn change_strategy(
     strategies: &mut Strategies,
     robots: &mut Query<Scripted>,
 ) {
+    if new.can_follow(strategies.of(team)).is_err() {
+        return;
+    }
     let old = std::mem::replace(&mut strategies.0[team.index()], new.clone());
-    for (_, id, mut role, mut activity, mut memory) in robots.iter_mut().filter(|(_, id, ..)| id.team == team)
+    for (_, id, mut role, mut activity, mut memory, _) in
+        robots.iter_mut().filter(|(_, id, ..)| id.team == team)
     {
         let at_kick_off = new.players.get(usize::from(id.number)).copied().unwrap_or(new.players[0]);
         let name = &old.roles[role.0].name;

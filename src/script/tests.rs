@@ -93,6 +93,7 @@ fn requests_are_carried_out_in_the_order_in_which_they_were_made() {
 #[test]
 fn levers_are_kept_within_their_stops() {
     let mut app = app();
+    ask(&mut app, [Request::TakeOver(FIRST), Request::TakeOver(SECOND)]);
     ask(&mut app, [steer(FIRST, 7.0), steer(SECOND, f32::NAN)]);
     let throttles = pilots(&mut app).iter().map(|(_, pilot)| pilot.throttle).collect::<Vec<_>>();
     assert_eq!(throttles, [1.0, 0.0]);
@@ -155,5 +156,14 @@ fn cleared_requests_are_never_carried_out() {
     app.world_mut().resource_mut::<Requests>().ask(Request::TakeOver(FIRST));
     app.world_mut().resource_mut::<Requests>().clear();
     ask(&mut app, []);
+    assert_eq!(pilots(&mut app), []);
+}
+
+#[test]
+fn a_robot_that_nobody_drives_is_not_steered() {
+    let mut app = app();
+    ask(&mut app, [steer(FIRST, 0.5)]);
+    assert_eq!(pilots(&mut app), []);
+    ask(&mut app, [Request::TakeOver(FIRST), Request::HandBack(FIRST), steer(FIRST, 0.5)]);
     assert_eq!(pilots(&mut app), []);
 }

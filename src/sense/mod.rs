@@ -22,12 +22,11 @@ pub use preset::{Camera, Eyes, MemorySpans, Sensing};
 
 use crate::ball::Ball;
 use crate::clock::Clock;
-use crate::drive::WheelCommand;
 use crate::geometry::{Pose, Sighting, Twist, wrap_angle};
 use crate::ids::{RobotId, Team};
-use crate::referee::{MatchState, OffPitch};
+use crate::referee::MatchState;
 use crate::rng::{Dice, Seed};
-use crate::robot::{Robot, Trailer};
+use crate::robot::{OffPitch, Robot, Trailer, WheelCommand};
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {

@@ -5,10 +5,10 @@ use bevy::ecs::system::RunSystemOnce;
 use super::*;
 use crate::ball::BallKind;
 use crate::data::Source;
-use crate::drive::WheelSpeeds;
 use crate::ids::Team::{Away, Home};
 use crate::perception::fixture::cye;
 use crate::referee::RuleBook;
+use crate::robot::WheelSpeeds;
 
 /// Bodies and eyes, moved by hand.
 struct Bench(World);

@@ -134,6 +134,18 @@ impl Strategy {
         resolve::resolve(&source.parse()?, source)
     }
 
+    /// Whether robots that play `before` can play on with this strategy.
+    ///
+    /// # Errors
+    /// Says why they cannot, in words for people.
+    pub fn can_follow(&self, before: &Strategy) -> Result<(), String> {
+        let (had, has) = (before.players.len(), self.players.len());
+        if had != has {
+            return Err(format!("it has {has} players, and {had} are on the pitch; restart to change that"));
+        }
+        Ok(())
+    }
+
     pub fn state(&self, machine: usize, state: usize) -> &State {
         &self.machines[machine].states[state]
     }

@@ -16,7 +16,7 @@ use super::selection::Pointer;
 use super::session::MatchBegun;
 use crate::geometry::{Pose, Zone};
 use crate::pitch::Pitch;
-use crate::referee::OffPitch;
+use crate::robot::OffPitch;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Sight>()
@@ -56,7 +56,7 @@ impl Default for Sight {
 /// Floor that is shown around the walls, m.
 const MARGIN: f32 = 0.15;
 /// Room for robots that wait beside the pitch, m.
-const BENCH: f32 = 0.5;
+const BENCH: f32 = 0.75;
 /// The largest scale, points to a metre.
 const NEAREST: f32 = 900.0;
 /// The smallest scale, as a share of that which fits.
@@ -66,13 +66,13 @@ const APPROACH: f32 = 10.0;
 
 impl Sight {
     /// Where a point of the pitch is in the window.
-    pub fn to_screen(&self, point: Vec2) -> egui::Pos2 {
+    pub fn to_screen(self, point: Vec2) -> egui::Pos2 {
         let offset = (point - self.centre) * self.scale;
         self.area.center() + egui::vec2(offset.x, -offset.y)
     }
 
     /// Which point of the pitch is at a place in the window.
-    pub fn to_pitch(&self, at: egui::Pos2) -> Vec2 {
+    pub fn to_pitch(self, at: egui::Pos2) -> Vec2 {
         let offset = at - self.area.center();
         self.centre + Vec2::new(offset.x, -offset.y) / self.scale
     }

@@ -11,7 +11,7 @@ const fn rgb(hex: u32) -> Color {
 }
 
 /// Around the pitch.
-pub const FLOOR: Color = rgb(0x14_1A_17);
+pub const FLOOR: Color = rgb(0x36_3D_3A);
 pub const CARPET: Color = rgb(0x2E_7D_46);
 /// Every second mowing stripe.
 pub const STRIPE: Color = rgb(0x33_86_4C);
@@ -37,6 +37,8 @@ pub const CALL: Color = rgb(0xFF_D1_66);
 pub const TROUBLE: Color = rgb(0x9E_2A_2B);
 /// A robot that is off the pitch.
 pub const PENALTY: Color = rgb(0xFF_6B_5E);
+/// Behind what is typed or slid on panels.
+pub const SUNKEN: Color = rgb(0x12_17_14);
 /// Panels.
 pub const PANEL: Color = rgb(0x1B_23_1F);
 /// Cards and buttons on panels.

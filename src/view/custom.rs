@@ -79,7 +79,7 @@ impl Form {
     /// Shows the form; the match to begin when that is asked for.
     pub fn show(&mut self, ui: &mut egui::Ui) -> Option<Choice> {
         let width = ui.available_width() - 76.0;
-        egui::Grid::new("custom match").num_columns(2).spacing([10.0, 8.0]).show(ui, |ui| {
+        egui::Grid::new("custom match").num_columns(2).spacing([10.0, 12.0]).show(ui, |ui| {
             for (team, name) in ["Home", "Away"].into_iter().enumerate() {
                 ui.label(name);
                 let offers = &self.offers;
@@ -110,7 +110,7 @@ impl Form {
             });
             ui.end_row();
         });
-        None.or_else(|| self.show_start(ui))
+        self.show_start(ui)
     }
 
     fn show_seats(&mut self, ui: &mut egui::Ui, width: f32) {
@@ -132,7 +132,9 @@ impl Form {
             ui.add(egui::Label::new(egui::RichText::new(fault).color(colour)).wrap());
         }
         let able = fault.is_none() && !self.offers.is_empty();
-        let clicked = ui.add_enabled_ui(able, |ui| super::menu::big_button(ui, "Start").clicked()).inner;
+        let foot = egui::Layout::bottom_up(egui::Align::Min);
+        let start = |ui: &mut egui::Ui| super::menu::big_button(ui, "Start").clicked();
+        let clicked = ui.with_layout(foot, |ui| ui.add_enabled_ui(able, start).inner).inner;
         clicked.then(|| self.choice())
     }
 }

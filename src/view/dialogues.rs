@@ -15,8 +15,7 @@ use crate::referee::{MatchState, Phase};
 use crate::strategy::Strategies;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Open>()
-        .add_observer(close_all)
+    app.add_observer(close_all)
         .add_systems(Update, (open_and_close, show_result_at_the_end).in_set(FrameSystems::Input))
         .add_systems(
             EguiPrimaryContextPass,

@@ -47,3 +47,68 @@ fn pass_time(world: &mut World) {
 fn is_over(world: &World) -> bool {
     world.get_resource::<MatchState>().is_none_or(|state| state.phase == Phase::Finished)
 }
+
+#[cfg(test)]
+mod tests {
+    use bevy::state::app::StatesPlugin;
+    use bevy::time::TimeUpdateStrategy;
+
+    use super::super::session::{Folder, Wish};
+    use super::super::shown::Shown;
+    use super::*;
+    use crate::data::AssetFolder;
+    use crate::game::{Choice, Match, MatchPlan};
+    use crate::record::Record;
+
+    fn assets() -> AssetFolder {
+        AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"))
+    }
+
+    /// The window's match without a window, with frames of this length.
+    fn window(choice: &Choice, frame: Duration) -> App {
+        let mut app = App::new();
+        app.add_plugins((MinimalPlugins, AssetPlugin::default(), StatesPlugin));
+        app.init_asset::<Mesh>().init_asset::<ColorMaterial>();
+        app.add_plugins((crate::simulation, super::super::played));
+        app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
+        app.insert_resource(Folder(assets())).insert_resource(Wish(Some(choice.clone())));
+        app.finish();
+        app.cleanup();
+        app
+    }
+
+    #[test]
+    fn the_window_plays_the_same_match_as_the_headless_runner_whatever_the_frame_rate() {
+        let choice = Choice { half_minutes: Some(0.1), seed: 3, ..Choice::default() };
+        let plan = MatchPlan::read(&assets(), &choice).expect("the default match");
+        let mut headless = Match::new(&plan);
+        while !headless.is_over() {
+            headless.tick();
+        }
+        for (milliseconds, speed) in [(7, 3), (50, 6)] {
+            let mut app = window(&choice, Duration::from_millis(milliseconds));
+            app.world_mut().resource_mut::<Pace>().speed = speed;
+            for _ in 0..20_000 {
+                app.update();
+                if is_over(app.world()) {
+                    break;
+                }
+            }
+            assert_eq!(app.world().resource::<Clock>().tick, headless.clock().tick);
+            assert_eq!(app.world().resource::<Record>().digest, headless.record().digest);
+        }
+    }
+
+    #[test]
+    fn a_match_is_drawn_once_and_cleared_away_for_the_next() {
+        let choice = Choice { seed: 3, ..Choice::default() };
+        let mut app = window(&choice, Duration::from_millis(16));
+        let count = |app: &mut App| app.world_mut().query::<&Shown>().iter(app.world()).count();
+        app.update();
+        let first = count(&mut app);
+        assert_eq!(first, 8 + 8 + 1, "drive units, trailers and the ball");
+        app.world_mut().resource_mut::<Wish>().0 = Some(choice);
+        app.update();
+        assert_eq!(count(&mut app), first);
+    }
+}

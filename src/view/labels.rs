@@ -20,7 +20,8 @@ use crate::ball::Ball;
 use crate::behaviour::Activity;
 use crate::ids::RobotId;
 use crate::pilot::Pilot;
-use crate::referee::{MatchState, OffPitch};
+use crate::referee::MatchState;
+use crate::robot::OffPitch;
 use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::Role;
 
@@ -125,6 +126,10 @@ fn write_on_pitch(
         let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else {
             continue;
         };
+        let middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
+        if robot.off_pitch {
+            no_entry(&painter, middle + egui::vec2(1.0, -1.0) * REACH * sight.scale);
+        }
         let is_selected = selected.0 == Some(plate.of);
         if !(overlays.labels || is_selected || robot.off_pitch) {
             continue;
@@ -132,7 +137,6 @@ fn write_on_pitch(
         let with_activity = is_selected || sight.scale > NEAR;
         let lines = lines(&robot, strategies.of(plate.of.team), &state, with_activity);
         let galley = lay_out(&painter, &lines);
-        let middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
         let choice = kept.choices.entry(plate.of).or_default();
         let room = galley.size() + 2.0 * PADDING;
         let reach = if is_selected { RING_REACH } else { REACH };
@@ -142,6 +146,12 @@ fn write_on_pitch(
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
     }
     Ok(())
+}
+
+/// The sign of a robot that the referee has sent off.
+fn no_entry(painter: &egui::Painter, at: egui::Pos2) {
+    painter.circle(at, 8.0, paint(colours::TROUBLE), (1.5, paint(colours::PILOT)));
+    painter.hline(at.x - 4.5..=at.x + 4.5, at.y, (3.0, paint(colours::PILOT)));
 }
 
 /// Room around a label's text, in points.

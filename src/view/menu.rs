@@ -8,6 +8,7 @@ use super::calls::Trouble;
 use super::colours::{self, egui as paint};
 use super::custom::{Form, fresh_seed};
 use super::layout::{FreeArea, PanelSystems};
+use super::menu_art::{Picture, paint_picture};
 use super::session::{Folder, Wish};
 use super::state::Screen;
 use crate::game::Choice;
@@ -20,7 +21,7 @@ pub(super) fn plugin(app: &mut App) {
     );
 }
 
-const CARD: egui::Vec2 = vec2(330.0, 270.0);
+const CARD: egui::Vec2 = vec2(330.0, 330.0);
 const GAP: f32 = 20.0;
 
 /// A match with the person at the wheel of a ball chaser.
@@ -58,7 +59,7 @@ fn show_menu(
     paint_pitch(ui.painter(), area.0);
     let width = 3.0 * CARD.x + 2.0 * GAP;
     let left = ((area.0.width() - width) / 2.0).max(8.0);
-    ui.add_space((area.0.height() * 0.14).max(12.0));
+    ui.add_space((area.0.height() * 0.11).max(12.0));
     ui.vertical_centered(|ui| {
         ui.label(RichText::new("Touchline").size(52.0).color(Color32::WHITE));
         ui.label(
@@ -71,15 +72,15 @@ fn show_menu(
         ui.add_space(left);
         let play = "You drive one robot of the home team against the CMU Hammerheads of 2001. Your three team mates \
                     chase the ball by themselves.";
-        if card(ui, "Play against the Hammerheads", play, |ui| big_button(ui, "Play").clicked()) {
+        if picture_card(ui, "Play against the Hammerheads", Picture::Play, play, "Play") {
             wish.0 = Some(against_the_hammerheads());
         }
         let watch = "The CMU Hammerheads play against a team of ball chasers. Select a robot to see what it senses, \
                      believes and wants, and take it over whenever you like.";
-        if card(ui, "Watch", watch, |ui| big_button(ui, "Watch").clicked()) {
+        if picture_card(ui, "Watch", Picture::Watch, watch, "Watch") {
             wish.0 = Some(to_watch());
         }
-        if let Some(choice) = card(ui, "Custom match", "", |ui| form.show(ui)) {
+        if let Some(choice) = card(ui, "Custom match", |ui| form.show(ui)) {
             wish.0 = Some(choice);
         }
     });
@@ -95,26 +96,33 @@ fn show_menu(
     Ok(())
 }
 
-fn card<R>(ui: &mut egui::Ui, title: &str, text: &str, foot: impl FnOnce(&mut egui::Ui) -> R) -> R {
+/// A card with a title, and the rest of it up to whoever calls.
+fn card<R>(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
     let frame = egui::Frame::new().fill(paint(colours::PANEL)).corner_radius(10).inner_margin(18);
     let inner = CARD - frame.total_margin().sum();
-    frame
-        .show(ui, |ui| {
-            ui.set_width(inner.x);
-            ui.set_height(inner.y);
-            ui.vertical(|ui| {
-                ui.spacing_mut().item_spacing.x = 6.0;
-                ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
-                ui.add_space(4.0);
-                if text.is_empty() {
-                    return foot(ui);
-                }
-                ui.label(RichText::new(text).size(15.0).color(paint(colours::TEXT)));
-                ui.with_layout(egui::Layout::bottom_up(egui::Align::Min), foot).inner
-            })
-            .inner
-        })
-        .inner
+    let shown = frame.show(ui, |ui| {
+        ui.set_width(inner.x);
+        ui.set_height(inner.y);
+        let shown = ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.x = 6.0;
+            ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
+            ui.add_space(6.0);
+            contents(ui)
+        });
+        shown.inner
+    });
+    shown.inner
+}
+
+/// A card with a picture, a few words and a button; whether that was clicked.
+fn picture_card(ui: &mut egui::Ui, title: &str, picture: Picture, text: &str, button: &str) -> bool {
+    card(ui, title, |ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 96.0), egui::Sense::hover());
+        paint_picture(ui.painter(), rect, picture);
+        ui.add_space(6.0);
+        ui.label(RichText::new(text).size(15.0).color(paint(colours::TEXT)));
+        ui.with_layout(egui::Layout::bottom_up(egui::Align::Min), |ui| big_button(ui, button).clicked()).inner
+    })
 }
 
 /// The button that a card is about.
@@ -135,7 +143,7 @@ fn paint_pitch(painter: &egui::Painter, area: egui::Rect) {
         let rect = egui::Rect::from_x_y_ranges(left..=left + stripe, area.y_range());
         painter.rect_filled(rect, 0.0, paint(colours::STRIPE));
     }
-    let chalk = egui::Stroke::new(4.0, paint(colours::CHALK).gamma_multiply(0.35));
+    let chalk = egui::Stroke::new(4.0, paint(colours::CARPET).lerp_to_gamma(paint(colours::CHALK), 0.3));
     painter.circle_stroke(egui::pos2(area.center().x, area.bottom() - 24.0), area.height() * 0.16, chalk);
     painter.rect_stroke(area.shrink(24.0), 0.0, chalk, egui::StrokeKind::Inside);
 }

@@ -18,6 +18,7 @@ mod help;
 mod labels;
 pub mod layout;
 mod menu;
+mod menu_art;
 mod nudge;
 mod pilot_seat;
 mod pitch;
@@ -89,36 +90,26 @@ enum FrameSystems {
 }
 
 fn plugin(app: &mut App) {
-    app.add_systems(Last, |time: Res<Time<Real>>, mut n: Local<(u32, f32, f32)>| {
-        n.0 += 1;
-        n.1 += time.delta_secs();
-        n.2 = n.2.max(time.delta_secs());
-        if n.1 > 2.0 {
-            eprintln!("TMP {:.1} fps, worst {:.0} ms", n.0 as f32 / n.1, n.2 * 1e3);
-            *n = (0, 0.0, 0.0);
-        }
-    });
     app.insert_resource(ClearColor(colours::FLOOR))
-        .init_state::<state::Screen>()
+        .add_plugins((played, layout::plugin, style::plugin, camera::plugin, labels::plugin, reload::plugin))
+        .add_plugins((actions::plugin, selection::plugin, pilot_seat::plugin))
+        .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin));
+}
+
+/// The match and its picture, without camera and interface: what can be tried without a window.
+fn played(app: &mut App) {
+    app.init_state::<state::Screen>()
         .init_resource::<state::Selected>()
         .init_resource::<state::Piloted>()
         .init_resource::<state::Overlays>()
         .init_resource::<state::Pace>()
+        .init_resource::<dialogues::Open>()
         .configure_sets(
             Update,
             (FrameSystems::Keys, FrameSystems::Input, FrameSystems::Time, FrameSystems::Picture)
                 .chain()
                 .run_if(in_state(state::Screen::Match)),
         )
-        .add_plugins((layout::plugin, style::plugin, session::plugin, driver::plugin, shown::plugin))
-        .add_plugins((
-            camera::plugin,
-            pitch::plugin,
-            robots::plugin,
-            ball::plugin,
-            rings::plugin,
-            labels::plugin,
-        ))
-        .add_plugins((actions::plugin, selection::plugin, pilot_seat::plugin, reload::plugin, calls::plugin))
-        .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin));
+        .add_plugins((session::plugin, driver::plugin, shown::plugin, calls::plugin))
+        .add_plugins((pitch::plugin, robots::plugin, ball::plugin, rings::plugin));
 }

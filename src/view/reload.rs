@@ -14,7 +14,7 @@ use bevy::time::common_conditions::on_real_timer;
 use super::calls::{Call, Trouble};
 use super::session::{Folder, MatchBegun, Session};
 use super::state::Screen;
-use crate::data::{DataError, Source};
+use crate::data::{DataError, Field, Source};
 use crate::ids::Team;
 use crate::script::{Request, Requests};
 use crate::strategy::Strategy;
@@ -85,7 +85,7 @@ fn take_over_changes(
 ) {
     for file in &mut watched.0 {
         let Some(reading) = file.changes.look(Source::read(&file.path)) else { continue };
-        match reading.and_then(|source| Strategy::parse(&source)) {
+        match reading.and_then(|source| follower(&source, &session, file.team)) {
             Ok(strategy) => {
                 call.tell(format!("The {} team plays on with its changed file", file.team));
                 trouble.0 = None;
@@ -99,6 +99,16 @@ fn take_over_changes(
                 trouble.0 = Some(format!("{error}. The {} team plays on with what it had", file.team))
             }
         }
+    }
+}
+
+/// The strategy of a changed file, if the team can play on with it.
+fn follower(source: &Source, session: &Session, team: Team) -> Result<Strategy, DataError> {
+    let strategy = Strategy::parse(source)?;
+    let before = session.plan.as_ref().map(|plan| &plan.team(team).strategy);
+    match before.map_or(Ok(()), |before| strategy.can_follow(before)) {
+        Ok(()) => Ok(strategy),
+        Err(reason) => Err(source.error_at(&Field::root().key("players"), reason)),
     }
 }
 

@@ -45,7 +45,7 @@ fn set_style(mut contexts: EguiContexts) -> Result {
 fn set_colours(visuals: &mut egui::Visuals) {
     visuals.panel_fill = paint(colours::PANEL);
     visuals.window_fill = paint(colours::PANEL);
-    visuals.extreme_bg_color = paint(colours::FLOOR);
+    visuals.extreme_bg_color = paint(colours::SUNKEN);
     visuals.selection.bg_fill = paint(colours::ACCENT).gamma_multiply(0.7);
     visuals.selection.stroke.color = paint(colours::PILOT);
     visuals.window_shadow = egui::Shadow::NONE;

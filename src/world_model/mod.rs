@@ -18,8 +18,7 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
-use crate::referee::OffPitch;
-use crate::robot::Robot;
+use crate::robot::{OffPitch, Robot};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
 
@@ -156,9 +155,8 @@ impl WorldModel {
             None => {
                 self.filter = filter;
                 let expected = filter.map(|filter| Sighting::of(filter.position, then));
-                if expected.is_some_and(|expected| should_be_seen(eyes, expected)) {
-                    self.misses += 1;
-                }
+                let missed = |expected| should_be_seen(eyes, expected) && !is_hidden(expected, frame);
+                self.misses += u32::from(expected.is_some_and(missed));
             }
         }
     }
@@ -217,6 +215,17 @@ impl WorldModel {
 
 /// Decisions whose poses are kept: 3 s at 20 a second, which no latency should exceed.
 const PAST: usize = 64;
+
+/// Whether a robot that the frame shows stands in the way of something.
+fn is_hidden(expected: Sighting, frame: &Frame) -> bool {
+    frame.robots.iter().any(|(_, robot)| {
+        let beside = wrap_angle(expected.bearing - robot.bearing).abs() * robot.range;
+        robot.range < expected.range && beside < ROBOT_RADIUS
+    })
+}
+
+/// Robots take each other to be this large, m.
+const ROBOT_RADIUS: f32 = 0.25;
 
 fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
     match eyes {

@@ -106,7 +106,7 @@ fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut Desk) {
     }
     let value =
         egui::DragValue::new(&mut wanted).range(0.0..=3.0).speed(0.01).max_decimals(2).min_decimals(2);
-    let value = value.clamp_existing_to_range(false);
+    let value = value.clamp_existing_to_range(false).update_while_editing(false);
     ui.scope(|ui| {
         if differs {
             ui.visuals_mut().override_text_color = Some(tints::egui(tints::CHANGED));

@@ -1,0 +1,144 @@
+//! How robots and ball come into the world, with everything that the stages need of them.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::*;
+
+use super::{MatchEntity, MatchPlan};
+use crate::ball::{Ball, BallDice, Rolling};
+use crate::behaviour::Activity;
+use crate::clock::Clock;
+use crate::geometry::{Pose, Twist};
+use crate::ids::RobotId;
+use crate::motor::{Contributions, MotorDice, SteeringIntent};
+use crate::perception::Memory;
+use crate::rng::Seed;
+use crate::robot::{Robot, RobotKind, Trailer, WheelCommand, jaws};
+use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
+use crate::strategy::Strategy;
+use crate::teamwork::Role;
+use crate::world_model::WorldModel;
+
+/// Spawns the ball at the origin, not yet known to the physics.
+pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
+    let kind = plan.ball;
+    world.spawn((
+        Name::new("ball"),
+        MatchEntity,
+        Ball { kind },
+        BallDice::new(seed),
+        Rolling::default(),
+        Pose::default(),
+        Twist::default(),
+        ball_body(kind.radius, kind.mass, kind.friction, kind.restitution),
+    ));
+}
+
+/// Spawns one robot of a plan; returns its drive unit and its trailer.
+pub(super) fn spawn_planned(
+    world: &mut World,
+    plan: &MatchPlan,
+    id: RobotId,
+    seed: Seed,
+    clock: &Clock,
+) -> (Entity, Option<Entity>) {
+    let team = plan.team(id.team);
+    let entry = Entry {
+        id,
+        role: team.strategy.players[usize::from(id.number)],
+        kind: team.kind.clone(),
+        sensing: team.sensing.clone(),
+        strategy: &team.strategy,
+        seed,
+    };
+    spawn_robot(world, &entry, clock)
+}
+
+/// What a robot brings to a match.
+#[derive(Clone, Debug)]
+struct Entry<'a> {
+    id: RobotId,
+    role: usize,
+    kind: Arc<RobotKind>,
+    sensing: Arc<Sensing>,
+    strategy: &'a Strategy,
+    seed: Seed,
+}
+
+/// Spawns a robot and its trailer at the origin, not yet known to the physics; returns both.
+fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Option<Entity>) {
+    let kind = &entry.kind;
+    let unit = world
+        .spawn((
+            (
+                Name::new(format!("robot {}", entry.id)),
+                MatchEntity,
+                entry.id,
+                Robot::new(kind.clone(), clock),
+                Pose::default(),
+                Twist::default(),
+                WheelCommand::default(),
+                SteeringIntent::default(),
+                Contributions::default(),
+                MotorDice::new(entry.seed, entry.id),
+            ),
+            (
+                Role(entry.role),
+                Activity::new(entry.strategy, entry.role, 0),
+                Memory::new(entry.strategy.slots),
+                WorldModel::default(),
+                Percepts::default(),
+                Eyesight::new(entry.sensing.clone(), entry.seed, entry.id),
+                Odometry::new(entry.seed, entry.id),
+            ),
+            rigid_body(unit_collider(kind), kind.body.mass, kind.body.friction, kind.body.restitution),
+        ))
+        .id();
+    let trailer = kind.trailer.as_ref().and_then(|trailer| {
+        let outline = Collider::convex_hull(&trailer.outline)?;
+        let middle = trailer.outline.iter().sum::<Vec2>() / trailer.outline.len() as f32;
+        let radius = trailer.outline.iter().map(|corner| corner.distance(middle)).fold(0.0, f32::max);
+        let hitch = TypedJoint::RevoluteJoint(RevoluteJointBuilder::new().build());
+        let mut joint = ImpulseJoint::new(unit, hitch);
+        joint.data.as_mut().set_contacts_enabled(false);
+        let spawned = world.spawn((
+            Name::new(format!("trailer {}", entry.id)),
+            MatchEntity,
+            Trailer { of: entry.id, middle, radius },
+            Pose::default(),
+            Twist::default(),
+            rigid_body(outline, trailer.mass, trailer.friction, trailer.restitution),
+            joint,
+        ));
+        Some(spawned.id())
+    });
+    (unit, trailer)
+}
+
+/// Body and jaws of a drive unit, around its centre.
+fn unit_collider(kind: &RobotKind) -> Collider {
+    let half = Vec2::new(kind.body.length, kind.body.width) / 2.0;
+    let mut parts = vec![(Vec2::ZERO, 0.0, Collider::cuboid(half.x, half.y))];
+    for jaw in jaws(kind) {
+        parts.extend(Collider::convex_hull(&jaw).map(|jaw| (Vec2::ZERO, 0.0, jaw)));
+    }
+    if parts.len() == 1 { Collider::cuboid(half.x, half.y) } else { Collider::compound(parts) }
+}
+
+fn rigid_body(collider: Collider, mass: f32, friction: f32, restitution: f32) -> impl Bundle {
+    (
+        RigidBody::Dynamic,
+        Transform::default(),
+        collider,
+        ColliderMassProperties::Mass(mass),
+        Friction { coefficient: friction, combine_rule: CoefficientCombineRule::Min },
+        Restitution { coefficient: restitution, combine_rule: CoefficientCombineRule::Max },
+        Sleeping::disabled(),
+    )
+}
+
+/// The ball's rigid body.
+fn ball_body(radius: f32, mass: f32, friction: f32, restitution: f32) -> impl Bundle {
+    (rigid_body(Collider::ball(radius), mass, friction, restitution), Ccd::enabled())
+}
