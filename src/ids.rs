@@ -88,8 +88,7 @@ mod tests {
 
     #[test]
     fn robots_are_ordered_home_first_then_by_number() {
-        let mut ids =
-            vec![RobotId::new(Team::Away, 0), RobotId::new(Team::Home, 3), RobotId::new(Team::Home, 1)];
+        let mut ids = [RobotId::new(Team::Away, 0), RobotId::new(Team::Home, 3), RobotId::new(Team::Home, 1)];
         ids.sort();
         assert_eq!(ids.iter().map(RobotId::to_string).collect::<Vec<_>>(), ["home 1", "home 3", "away 0"]);
     }

@@ -16,6 +16,13 @@ use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {
+    // Registering bodies runs Bevy's transform systems, which in a build with a window want threads and a resource.
+    if !app.is_plugin_added::<TaskPoolPlugin>() {
+        app.add_plugins(TaskPoolPlugin::default());
+    }
+    if !app.is_plugin_added::<TransformPlugin>() {
+        app.add_plugins(TransformPlugin);
+    }
     app.insert_resource(RapierContextInitialization::NoAutomaticRapierContext)
         .add_plugins(RapierPhysicsPlugin::<NoUserData>::default().with_default_system_setup(false))
         .init_resource::<TimestepMode>()

@@ -1,6 +1,7 @@
 //! Bodies in motion against closed forms: the trailer behind its drive unit, the ball, and collisions.
 
 use bevy::ecs::system::SystemState;
+use bevy::math::ops;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::{RapierRigidBodyHandle, RapierRigidBodySet};
 use bevy_rapier2d::rapier::dynamics::RigidBody;
@@ -65,10 +66,15 @@ fn trailer(game: &mut Match) -> Pose {
     found.map(|(_, pose)| *pose).expect("a Cye has a trailer")
 }
 
+/// Some entities' bodies, and Rapier's set of all of them.
+type Bodies<'w, 's, C> = (
+    Query<'w, 's, (&'static C, &'static RapierRigidBodyHandle)>,
+    Query<'w, 's, &'static mut RapierRigidBodySet>,
+);
+
 /// Changes the bodies of some entities behind the simulation's back.
 fn with_body<C: Component>(game: &mut Match, change: impl Fn(&C, &mut RigidBody)) {
-    let mut state: SystemState<(Query<(&C, &RapierRigidBodyHandle)>, Query<&mut RapierRigidBodySet>)> =
-        SystemState::new(game.world_mut());
+    let mut state: SystemState<Bodies<C>> = SystemState::new(game.world_mut());
     let (found, mut sets) = state.get_mut(game.world_mut()).expect("the queries are sound");
     let mut set = sets.single_mut().expect("there is one physical world");
     for (component, handle) in &found {
@@ -90,7 +96,7 @@ fn a_trailer_straightens_behind_a_straight_drive_as_the_closed_form_says() {
     drive(&mut game, (0.6, 0.6), 150, |unit, trailer| {
         let distance = unit.position.distance(from);
         let hitch = wrap_angle(unit.heading - trailer.heading);
-        let expected = 2.0 * ((start / 2.0).tan() * (-distance / AXLE).exp()).atan();
+        let expected = 2.0 * ops::atan(ops::tan(start / 2.0) * ops::exp(-distance / AXLE));
         // Within 1 % of the whole change of angle.
         assert!(
             (hitch - expected).abs() < 0.01 * start,
@@ -121,7 +127,7 @@ fn a_steady_circle_has_the_radius_and_the_hitch_angle_of_the_closed_form() {
     let mean = poses[..round].iter().map(|pose| pose.position.distance(centre)).sum::<f32>() / round as f32;
     assert!((mean / radius - 1.0).abs() < 0.01, "radius {mean} m instead of {radius}");
 
-    let (hitch, expected) = (hitch / poses.len() as f32, (AXLE / radius).asin());
+    let (hitch, expected) = (hitch / poses.len() as f32, ops::asin(AXLE / radius));
     assert!((hitch / expected - 1.0).abs() < 0.01, "{hitch} rad instead of {expected}");
 }
 

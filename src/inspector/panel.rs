@@ -1,4 +1,5 @@
 //! The panel at the right edge: the selected robot, section by section. Key I opens and closes it; its edge can be dragged.
+//! Without a selection there is only a strip, and the pitch has the room.
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
@@ -6,7 +7,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
 use super::Inspector;
 use super::sections::{self, Desk};
-use super::subject::Scene;
+use super::subject::{Looked, Scene};
 use super::weights::Weights;
 use crate::script::Requests;
 use crate::view::layout::{FreeArea, PanelSystems};
@@ -38,20 +39,22 @@ fn dock(
     mut changes: Changes,
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
-    if changes.inspector.open {
+    let robot = scene.looked();
+    if let Some(robot) = robot.filter(|_| changes.inspector.open) {
         let panel = egui::Panel::right("inspector")
             .resizable(true)
             .default_size(WIDTH.0)
             .size_range(WIDTH.1..=WIDTH.2)
             .frame(egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(MARGIN));
         area.dock(ctx, "inspector", panel, |ui| {
-            fill(ui, &scene, &mut changes);
+            fill(ui, &robot, &mut changes);
         });
     } else {
         let strip = egui::Panel::right("inspector_strip").resizable(false).exact_size(STRIP);
         area.dock(ctx, "inspector_strip", strip, |ui| {
             let open = ui.add(egui::Button::new("⏴").frame(false));
-            if open.on_hover_text("Open the inspector (I)").clicked() {
+            let hint = "The inspector (I): click a robot, or press Tab, to look inside it";
+            if open.on_hover_text(hint).clicked() {
                 changes.inspector.open = true;
             }
         });
@@ -59,26 +62,17 @@ fn dock(
     Ok(())
 }
 
-fn fill(ui: &mut egui::Ui, scene: &Scene, changes: &mut Changes) {
+fn fill(ui: &mut egui::Ui, robot: &Looked, changes: &mut Changes) {
     set_close(ui);
-    let Some(robot) = scene.looked() else {
-        ui.horizontal(|ui| {
-            ui.weak("Click a robot, or press Tab, to look inside it.");
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                sections::close_button(ui, &mut changes.inspector.open);
-            });
-        });
-        return;
-    };
     let mut desk = Desk {
         requests: &mut changes.requests,
         weights: &mut changes.weights,
         piloted: &mut changes.piloted,
         open: &mut changes.inspector.open,
     };
-    sections::draw_head(ui, &robot, &mut desk);
+    sections::draw_head(ui, robot, &mut desk);
     ui.separator();
-    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| sections::draw(ui, &robot, &mut desk));
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| sections::draw(ui, robot, &mut desk));
 }
 
 /// Much is to be seen at once here, so type and rows are as small as they may be anywhere.

@@ -50,10 +50,11 @@ use crate::game::Choice;
 pub fn open_window(assets: &AssetFolder, choice: &Choice) -> ExitCode {
     let mut app = App::new();
     app.add_plugins(
-        DefaultPlugins
-            .set(WindowPlugin { primary_window: Some(window()), ..default() })
-            .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() })
-            .set(LogPlugin { level: Level::ERROR, filter: String::new(), ..default() }),
+        DefaultPlugins.set(WindowPlugin { primary_window: Some(window()), ..default() }).set(LogPlugin {
+            level: Level::ERROR,
+            filter: String::new(),
+            ..default()
+        }),
     );
     app.add_plugins((EguiPlugin::default(), crate::simulation, plugin, crate::inspector::plugin));
     app.insert_resource(session::Folder(assets.clone()));
