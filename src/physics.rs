@@ -37,7 +37,7 @@ pub(super) fn plugin(app: &mut App) {
     }
 }
 
-/// Run once after the bodies of a match were spawned: makes them known to Rapier.
+/// Run after a body was spawned: makes it known to Rapier.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 struct RegisterBodies;
 
@@ -88,10 +88,12 @@ pub fn open_world(world: &mut World, pitch: &Pitch, mark: impl Bundle + Copy) {
             Friction { coefficient: pitch.walls.friction, combine_rule: CoefficientCombineRule::Min },
             Restitution { coefficient: pitch.walls.restitution, combine_rule: CoefficientCombineRule::Max },
         ));
+        register_bodies(world);
     }
 }
 
-/// Makes freshly spawned bodies known to Rapier.
+/// Makes a freshly spawned body known to Rapier. Once for each body: Rapier's order is the order of registration, while
+/// bevy_rapier takes several new bodies in an order that differs from world to world.
 pub fn register_bodies(world: &mut World) {
     world.run_schedule(RegisterBodies);
     world.flush();

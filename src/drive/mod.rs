@@ -7,12 +7,14 @@ mod wheels;
 
 use bevy::prelude::*;
 use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
+use smallvec::SmallVec;
 
 pub use differential::steer;
 pub use wheels::{Rigid, push_wheels};
 
 use crate::clock::Clock;
 use crate::geometry::wrap_angle;
+use crate::ids::RobotId;
 use crate::motor::SteeringIntent;
 use crate::physics::Bodies;
 use crate::pilot::Pilot;
@@ -59,8 +61,13 @@ fn intended(intent: SteeringIntent, heading: f32, drive: &DifferentialDrive) -> 
     }
 }
 
-fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, robots: Query<(&Robot, &RobotBodies, &WheelCommand)>) {
-    for (robot, handles, command) in &robots {
+type Pushed<'a> = (&'a RobotId, &'a Robot, &'a RobotBodies, &'a WheelCommand);
+
+/// In order, since Rapier remembers the order in which bodies are touched.
+fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, robots: Query<Pushed>) {
+    let mut in_order: SmallVec<[_; 16]> = robots.iter().collect();
+    in_order.sort_unstable_by_key(|(id, ..)| **id);
+    for (_, robot, handles, command) in in_order {
         let Drive::Differential(drive) = &robot.kind.drive;
         let Some(mut unit) = bodies.get(&handles.unit).map(rigid) else { continue };
         let kind: Option<&TrailerKind> = robot.kind.trailer.as_ref();

@@ -68,7 +68,8 @@ fn place_robots(
     mut robots: Query<Carried, Without<Ball>>,
 ) {
     for call in &calls.0 {
-        for mut robot in &mut robots {
+        // In order, since Rapier remembers the order in which bodies are touched.
+        for mut robot in robots.iter_mut().sort::<&RobotId>() {
             let id = *robot.id;
             let ends = state.attacking(id.team);
             let at = match *call {
@@ -121,8 +122,8 @@ fn kick_off_pose(strategies: &Strategies, id: RobotId, kick_off: Team) -> Pose {
     Pose { position: place, heading: 0.0 }
 }
 
-/// Where a robot waits that was taken off.
-fn beside_the_pitch(pitch: &Pitch, id: RobotId) -> Pose {
+/// Where a robot waits before the match, and after it was taken off.
+pub(super) fn beside_the_pitch(pitch: &Pitch, id: RobotId) -> Pose {
     let side = if id.team == Team::Home { -1.0 } else { 1.0 };
     let y = pitch.half_size().y + pitch.walls.thickness + 0.6;
     Pose::new(side * (1.0 + f32::from(id.number)), y, -std::f32::consts::FRAC_PI_2)

@@ -5,18 +5,14 @@ mod plan;
 mod spawn;
 
 use bevy::prelude::*;
-use bevy_rapier2d::prelude::RapierRigidBodyHandle;
-
 pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
 
 use crate::clock::Clock;
 use crate::ids::Team;
-use crate::physics::{open_world, register_bodies};
-use crate::pilot::Pilot;
+use crate::physics::open_world;
 use crate::record::Record;
 use crate::referee::{Calls, MatchState, Phase, Whistles};
 use crate::rng::Seed;
-use crate::robot::RobotBodies;
 use crate::schedule::Tick;
 use crate::script::Requests;
 use crate::strategy::Strategies;
@@ -51,15 +47,8 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(Requests::default());
     open_world(world, &plan.pitch, MatchEntity);
     spawn_ball(world, plan, seed);
-    let robots: Vec<_> = plan.robots().map(|id| (id, spawn_planned(world, plan, id, seed, &clock))).collect();
-    register_bodies(world);
-    for (id, (unit, trailer)) in robots {
-        let handle = |entity: Entity| world.get::<RapierRigidBodyHandle>(entity).copied();
-        let (Some(unit_body), trailer_body) = (handle(unit), trailer.and_then(handle)) else { continue };
-        world.entity_mut(unit).insert(RobotBodies { unit: unit_body, trailer: trailer_body });
-        if plan.pilot == Some(id) {
-            world.entity_mut(unit).insert(Pilot::default());
-        }
+    for id in plan.robots() {
+        spawn_planned(world, plan, id, seed, &clock);
     }
 }
 

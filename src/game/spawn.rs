@@ -5,6 +5,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
 
+use super::carry::beside_the_pitch;
 use super::{MatchEntity, MatchPlan};
 use crate::ball::{Ball, BallDice, Rolling};
 use crate::behaviour::Activity;
@@ -13,14 +14,16 @@ use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
 use crate::motor::{Contributions, MotorDice, SteeringIntent};
 use crate::perception::Memory;
+use crate::physics::register_bodies;
+use crate::pilot::Pilot;
 use crate::rng::Seed;
-use crate::robot::{Robot, RobotKind, Trailer, WheelCommand, jaws};
+use crate::robot::{Robot, RobotBodies, RobotKind, Trailer, WheelCommand, jaws};
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;
 use crate::teamwork::Role;
 use crate::world_model::WorldModel;
 
-/// Spawns the ball at the origin, not yet known to the physics.
+/// Spawns the ball on the centre spot.
 pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
     let kind = plan.ball;
     world.spawn((
@@ -31,18 +34,14 @@ pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
         Rolling::default(),
         Pose::default(),
         Twist::default(),
-        ball_body(kind.radius, kind.mass, kind.friction, kind.restitution),
+        rigid_body(Collider::ball(kind.radius), kind.mass, kind.friction, kind.restitution, Vec2::ZERO),
+        Ccd::enabled(),
     ));
+    register_bodies(world);
 }
 
-/// Spawns one robot of a plan; returns its drive unit and its trailer.
-pub(super) fn spawn_planned(
-    world: &mut World,
-    plan: &MatchPlan,
-    id: RobotId,
-    seed: Seed,
-    clock: &Clock,
-) -> (Entity, Option<Entity>) {
+/// Spawns one robot of a plan beside the pitch, where it waits for the referee.
+pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, seed: Seed, clock: &Clock) {
     let team = plan.team(id.team);
     let entry = Entry {
         id,
@@ -51,8 +50,17 @@ pub(super) fn spawn_planned(
         sensing: team.sensing.clone(),
         strategy: &team.strategy,
         seed,
+        place: beside_the_pitch(&plan.pitch, id).position,
     };
-    spawn_robot(world, &entry, clock)
+    let (unit, trailer) = spawn_robot(world, &entry, clock);
+    let handle = |entity: Entity| world.get::<RapierRigidBodyHandle>(entity).copied();
+    if let Some(unit_body) = handle(unit) {
+        let bodies = RobotBodies { unit: unit_body, trailer: trailer.and_then(handle) };
+        world.entity_mut(unit).insert(bodies);
+    }
+    if plan.pilot == Some(id) {
+        world.entity_mut(unit).insert(Pilot::default());
+    }
 }
 
 /// What a robot brings to a match.
@@ -64,9 +72,11 @@ struct Entry<'a> {
     sensing: Arc<Sensing>,
     strategy: &'a Strategy,
     seed: Seed,
+    /// m, in the pitch frame.
+    place: Vec2,
 }
 
-/// Spawns a robot and its trailer at the origin, not yet known to the physics; returns both.
+/// Spawns a robot and its trailer; returns both.
 fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Option<Entity>) {
     let kind = &entry.kind;
     let unit = world
@@ -92,9 +102,16 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
                 Eyesight::new(entry.sensing.clone(), entry.seed, entry.id),
                 Odometry::new(entry.seed, entry.id),
             ),
-            rigid_body(unit_collider(kind), kind.body.mass, kind.body.friction, kind.body.restitution),
+            rigid_body(
+                unit_collider(kind),
+                kind.body.mass,
+                kind.body.friction,
+                kind.body.restitution,
+                entry.place,
+            ),
         ))
         .id();
+    register_bodies(world);
     let trailer = kind.trailer.as_ref().and_then(|trailer| {
         let outline = Collider::convex_hull(&trailer.outline)?;
         let middle = trailer.outline.iter().sum::<Vec2>() / trailer.outline.len() as f32;
@@ -108,11 +125,12 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
             Trailer { of: entry.id, middle, radius },
             Pose::default(),
             Twist::default(),
-            rigid_body(outline, trailer.mass, trailer.friction, trailer.restitution),
+            rigid_body(outline, trailer.mass, trailer.friction, trailer.restitution, entry.place),
             joint,
         ));
         Some(spawned.id())
     });
+    register_bodies(world);
     (unit, trailer)
 }
 
@@ -126,19 +144,14 @@ fn unit_collider(kind: &RobotKind) -> Collider {
     if parts.len() == 1 { Collider::cuboid(half.x, half.y) } else { Collider::compound(parts) }
 }
 
-fn rigid_body(collider: Collider, mass: f32, friction: f32, restitution: f32) -> impl Bundle {
+fn rigid_body(collider: Collider, mass: f32, friction: f32, restitution: f32, place: Vec2) -> impl Bundle {
     (
         RigidBody::Dynamic,
-        Transform::default(),
+        Transform::from_translation(place.extend(0.0)),
         collider,
         ColliderMassProperties::Mass(mass),
         Friction { coefficient: friction, combine_rule: CoefficientCombineRule::Min },
         Restitution { coefficient: restitution, combine_rule: CoefficientCombineRule::Max },
         Sleeping::disabled(),
     )
-}
-
-/// The ball's rigid body.
-fn ball_body(radius: f32, mass: f32, friction: f32, restitution: f32) -> impl Bundle {
-    (rigid_body(Collider::ball(radius), mass, friction, restitution), Ccd::enabled())
 }
