@@ -117,11 +117,15 @@ impl Form {
         let seats: Vec<RobotId> = self.seats().collect();
         self.pilot = self.pilot.filter(|seat| seats.contains(seat));
         let name = |seat: Option<RobotId>| seat.map_or_else(|| "nobody".into(), robot_text);
-        egui::ComboBox::from_id_salt("seat").width(width).height(320.0).selected_text(name(self.pilot)).show_ui(ui, |ui| {
-            for seat in std::iter::once(None).chain(seats.into_iter().map(Some)) {
-                ui.selectable_value(&mut self.pilot, seat, name(seat));
-            }
-        });
+        egui::ComboBox::from_id_salt("seat")
+            .width(width)
+            .height(320.0)
+            .selected_text(name(self.pilot))
+            .show_ui(ui, |ui| {
+                for seat in std::iter::once(None).chain(seats.into_iter().map(Some)) {
+                    ui.selectable_value(&mut self.pilot, seat, name(seat));
+                }
+            });
     }
 
     fn show_start(&self, ui: &mut egui::Ui) -> Option<Choice> {
