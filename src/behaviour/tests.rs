@@ -5,22 +5,10 @@ use std::sync::Arc;
 use bevy::ecs::system::RunSystemOnce;
 
 use super::*;
-use crate::ball::BallKind;
 use crate::ids::Team;
-use crate::perception::fixture::{Situation, cye, pitch, strategy};
+use crate::perception::fixture::{BALL, Situation, cye, pitch, strategy};
 use crate::rng::Seed;
 use crate::strategy::language::Point;
-
-const BALL: BallKind = BallKind {
-    radius: 0.11,
-    mass: 0.43,
-    rolling: 0.3,
-    sliding: 3.4,
-    inertia: 0.667,
-    friction: 0.3,
-    restitution: 0.2,
-    wander: 0.0,
-};
 
 /// A robot that decides in every third tick, and nothing else.
 struct Bench {

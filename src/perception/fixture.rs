@@ -3,6 +3,7 @@
 use bevy::prelude::*;
 
 use super::Perception;
+use crate::ball::BallKind;
 use crate::data::Source;
 use crate::geometry::{Pose, Zone};
 use crate::ids::Team;
@@ -70,6 +71,18 @@ impl Situation {
         }
     }
 }
+
+/// A size 5 football that rolls straight.
+pub const BALL: BallKind = BallKind {
+    radius: 0.11,
+    mass: 0.43,
+    rolling: 0.3,
+    sliding: 3.4,
+    inertia: 0.667,
+    friction: 0.3,
+    restitution: 0.2,
+    wander: 0.0,
+};
 
 /// The shipped pitch: 9 by 5 m.
 pub fn pitch() -> Pitch {

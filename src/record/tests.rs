@@ -1,8 +1,8 @@
 //! What is recorded of a world that is arranged by hand.
 
 use super::*;
-use crate::ball::BallKind;
 use crate::ids::Team::{Away, Home};
+use crate::perception::fixture::BALL;
 use crate::referee::RuleBook;
 
 fn record(seed: u64) -> Record {
@@ -21,17 +21,7 @@ fn app() -> App {
     app.insert_resource(record(1));
     app.insert_resource(Clock::new(60.0));
     app.insert_resource(state);
-    let kind = BallKind {
-        radius: 0.11,
-        mass: 0.43,
-        rolling: 0.3,
-        sliding: 3.4,
-        inertia: 0.667,
-        friction: 0.3,
-        restitution: 0.2,
-        wander: 0.0,
-    };
-    app.world_mut().spawn((Ball { kind }, Pose::default()));
+    app.world_mut().spawn((Ball { kind: BALL }, Pose::default()));
     robot(&mut app, Home, 0, 3.0);
     robot(&mut app, Away, 0, -3.0);
     app

@@ -3,10 +3,9 @@
 use bevy::ecs::system::RunSystemOnce;
 
 use super::*;
-use crate::ball::BallKind;
 use crate::data::Source;
 use crate::ids::Team::{Away, Home};
-use crate::perception::fixture::cye;
+use crate::perception::fixture::{BALL, cye};
 use crate::referee::RuleBook;
 use crate::robot::WheelSpeeds;
 
@@ -39,17 +38,7 @@ impl Bench {
         let mut world = World::new();
         world.insert_resource(Clock::new(60.0));
         world.insert_resource(MatchState::new(Home, &RuleBook::default()));
-        let kind = BallKind {
-            radius: 0.11,
-            mass: 0.43,
-            rolling: 0.3,
-            sliding: 3.4,
-            inertia: 0.667,
-            friction: 0.3,
-            restitution: 0.2,
-            wander: 0.0,
-        };
-        world.spawn((Ball { kind }, Pose { position: ball, heading: 0.0 }));
+        world.spawn((Ball { kind: BALL }, Pose { position: ball, heading: 0.0 }));
         Bench(world)
     }
 
