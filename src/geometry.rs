@@ -152,6 +152,11 @@ impl Zone {
         point.cmpge(self.min).all() && point.cmple(self.max).all()
     }
 
+    /// This zone, wider by so much on every side.
+    pub fn grown(self, by: f32) -> Zone {
+        Zone { min: self.min - by, max: self.max + by }
+    }
+
     /// The point of the zone that is nearest to `point`.
     pub fn clamp(self, point: Vec2) -> Vec2 {
         point.clamp(self.min, self.max)

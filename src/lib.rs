@@ -22,15 +22,19 @@ pub mod geometry;
 pub mod ids;
 #[cfg(feature = "window")]
 pub mod inspector;
+pub mod messages;
 pub mod motor;
 pub mod perception;
 pub mod physics;
 pub mod pilot;
 pub mod pitch;
+pub mod protocol;
+pub mod radio;
 pub mod record;
 pub mod referee;
 pub mod rng;
 pub mod robot;
+pub mod scenario;
 pub mod schedule;
 pub mod schemas;
 pub mod script;
@@ -49,8 +53,10 @@ pub fn simulation(app: &mut App) {
         schedule::plugin,
         physics::plugin,
         script::plugin,
+        radio::plugin,
         sense::plugin,
         world_model::plugin,
+        teamwork::plugin,
         behaviour::plugin,
         motor::plugin,
         drive::plugin,

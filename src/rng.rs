@@ -1,6 +1,7 @@
 //! Seeded dice. Every purpose and robot has a stream of its own, so that switching one mechanism on or off does not
 //! shift the dice of another.
 
+use bevy::math::ops;
 use bevy::prelude::*;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
@@ -35,6 +36,12 @@ impl Dice {
     pub fn normal(&mut self, deviation: f32) -> f32 {
         let z: f32 = StandardNormal.sample(&mut self.0);
         z * deviation
+    }
+
+    /// Exponential with the given mean: at least 0, mostly less than the mean and seldom many times as much. Takes one
+    /// number from the stream.
+    pub fn exponential(&mut self, mean: f32) -> f32 {
+        -mean * ops::ln(1.0 - self.uniform())
     }
 
     /// True with this probability: never at 0, always at 1.
@@ -76,5 +83,18 @@ mod tests {
         let n = 20_000;
         let variance = (0..n).map(|_| dice.normal(0.3).powi(2)).sum::<f32>() / n as f32;
         assert!((variance.sqrt() - 0.3).abs() < 0.01, "{}", variance.sqrt());
+    }
+
+    #[test]
+    fn exponential_has_the_asked_mean_and_tail() {
+        let mut dice = Dice::new(Seed(7), "test", None);
+        let n = 20_000;
+        let values: Vec<f32> = (0..n).map(|_| dice.exponential(0.3)).collect();
+        assert!(values.iter().all(|value| *value >= 0.0 && value.is_finite()));
+        // Four standard deviations of the mean and of the share beyond it, which is 1 / e.
+        let mean = values.iter().sum::<f32>() / n as f32;
+        assert!((mean - 0.3).abs() < 4.0 * 0.3 / (n as f32).sqrt(), "{mean}");
+        let beyond = values.iter().filter(|value| **value > 0.3).count() as f32 / n as f32;
+        assert!((beyond - 0.3679).abs() < 4.0 * (0.3679 * 0.6321 / n as f32).sqrt(), "{beyond}");
     }
 }

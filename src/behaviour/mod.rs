@@ -2,6 +2,7 @@
 //!
 //! At most one transition a decision, the first whose feature holds, as in Clay.
 
+mod homebase;
 #[cfg(test)]
 mod tests;
 
@@ -20,8 +21,8 @@ use crate::robot::{OffPitch, Robot};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::Odometry;
 use crate::strategy::language::Feature;
-use crate::strategy::{Part, RoleSpec, Strategies, Strategy};
-use crate::teamwork::Role;
+use crate::strategy::{Part, Play, RoleSpec, Strategies, Strategy};
+use crate::teamwork::{Role, TeamPicture};
 use crate::world_model::WorldModel;
 
 pub(super) fn plugin(app: &mut App) {
@@ -60,22 +61,23 @@ impl Activity {
     /// The first activity of a robot in this role.
     pub fn new(strategy: &Strategy, role: usize, tick: u64) -> Activity {
         let acting_as = match &strategy.roles[role].part {
-            Part::Plays { .. } => role,
+            Part::Plays(_) => role,
             Part::ActsAs(sub_roles) => sub_roles[sub_roles.len() - 1].role,
         };
-        let (machine, _, homebases) = played(&strategy.roles[acting_as]);
-        let state = strategy.machines[machine].start;
-        Activity { acting_as, state, since: tick, homebase: homebases[0], history: VecDeque::new() }
+        let play = played(&strategy.roles[acting_as]);
+        let state = strategy.machines[play.machine].start;
+        let homebase = play.homebases[0];
+        Activity { acting_as, state, since: tick, homebase, history: VecDeque::new() }
     }
 
     /// The machine that the robot runs.
     pub fn machine(&self, strategy: &Strategy) -> usize {
-        played(&strategy.roles[self.acting_as]).0
+        played(&strategy.roles[self.acting_as]).machine
     }
 
     /// The robot's zone of control.
     pub fn danger_zone(&self, strategy: &Strategy) -> Zone {
-        played(&strategy.roles[self.acting_as]).1
+        played(&strategy.roles[self.acting_as]).danger_zone
     }
 
     /// This activity under a changed strategy: the role and the state of the same names, where they still exist.
@@ -83,7 +85,8 @@ impl Activity {
         let fresh = Activity::new(new, role, tick);
         let acting = &old.roles[self.acting_as].name;
         let Some(acting_as) = new.roles.iter().position(|spec| spec.name == *acting) else { return fresh };
-        let Part::Plays { machine, .. } = new.roles[acting_as].part else { return fresh };
+        let Part::Plays(play) = &new.roles[acting_as].part else { return fresh };
+        let machine = play.machine;
         let state = &old.state(self.machine(old), self.state).name;
         match new.machines[machine].states.iter().position(|candidate| candidate.name == *state) {
             Some(state) => Activity { acting_as, state, ..self.clone() },
@@ -100,44 +103,55 @@ impl Activity {
     }
 }
 
-/// Machine, zone of control and homebases of a role that plays itself; loading makes sure that `acting_as` is one.
-fn played(spec: &RoleSpec) -> (usize, Zone, &[Vec2]) {
+/// A role that plays itself; loading makes sure that `acting_as` is one.
+fn played(spec: &RoleSpec) -> &Play {
     match &spec.part {
-        Part::Plays { machine, danger_zone, homebases } => (*machine, *danger_zone, homebases),
+        Part::Plays(play) => play,
         Part::ActsAs(_) => unreachable!("{} acts as other roles and has no machine", spec.name),
     }
 }
 
-/// What a robot decides upon. Read by the Behaviour and Motor stages.
+/// What a robot decides upon, and what its operators remember. Of the Behaviour and Motor stages.
 #[derive(QueryData)]
 #[query_data(mutable)]
 pub struct Mind {
+    pub wits: Wits,
+    pub memory: &'static mut Memory,
+}
+
+/// What a robot decides upon.
+#[derive(QueryData)]
+pub struct Wits {
     pub id: &'static RobotId,
     pub robot: &'static Robot,
     pub model: &'static WorldModel,
     pub odometry: &'static Odometry,
-    pub memory: &'static mut Memory,
+    pub picture: &'static TeamPicture,
+    pub role: &'static Role,
 }
 
 /// The perception of a robot in an activity.
 pub fn perception<'a>(
-    (id, robot, model, odometry): (RobotId, &Robot, &'a WorldModel, &Odometry),
+    wits: &WitsItem<'a, '_>,
     activity: &Activity,
-    strategy: &Strategy,
+    strategy: &'a Strategy,
     (clock, pitch, ball): (&Clock, &'a Pitch, &Ball),
 ) -> Perception<'a> {
     let seconds_since = |tick: u64| clock.tick.saturating_sub(tick) as f32 * clock.dt;
     Perception {
-        team: id.team,
-        model,
+        team: wits.id.team,
+        role: wits.role.0,
+        model: wits.model,
+        picture: wits.picture,
+        teamwork: &strategy.teamwork,
         pitch,
         danger_zone: activity.danger_zone(strategy),
         homebase: activity.homebase,
         now: clock.now() as f32,
-        ball_age: model.ball.map(|ball| seconds_since(ball.seen)),
+        ball_age: wits.model.ball.map(|ball| seconds_since(ball.seen)),
         time_in_state: seconds_since(activity.since),
-        stalled_for: odometry.stalled_for,
-        front: robot.kind.body.length / 2.0,
+        stalled_for: wits.odometry.stalled_for,
+        front: wits.robot.kind.body.length / 2.0,
         ball_radius: ball.kind.radius,
     }
 }
@@ -147,21 +161,20 @@ fn choose_activities(
     pitch: Res<Pitch>,
     strategies: Res<Strategies>,
     ball: Single<&Ball>,
-    mut robots: Query<(Mind, &Role, &mut Activity), Without<OffPitch>>,
+    mut robots: Query<(Mind, &mut Activity), Without<OffPitch>>,
 ) {
-    for (mut mind, role, mut activity) in &mut robots {
-        if !mind.robot.decides(&clock) {
+    for (mut mind, mut activity) in &mut robots {
+        let wits = &mind.wits;
+        if !wits.robot.decides(&clock) {
             continue;
         }
-        let strategy = strategies.of(mind.id.team);
-        let senses = |activity: &Activity| {
-            let robot = (*mind.id, mind.robot, mind.model, mind.odometry);
-            perception(robot, activity, strategy, (&clock, &pitch, &ball))
-        };
+        let strategy = strategies.of(wits.id.team);
+        let senses = |activity: &Activity| perception(wits, activity, strategy, (&clock, &pitch, &ball));
         let memory = &mut *mind.memory;
         memory.begin_decision();
-        choose_sub_role(&senses(&activity), strategy, role.0, memory, &mut activity, clock.tick);
-        choose_homebase(mind.model.pose.position, strategy, &mut activity);
+        choose_sub_role(&senses(&activity), strategy, memory, &mut activity, clock.tick);
+        let play = played(&strategy.roles[activity.acting_as]);
+        activity.homebase = homebase::choose(play, activity.homebase, &senses(&activity));
         take_transition(&senses(&activity), strategy, memory, &mut activity, clock.tick);
     }
 }
@@ -169,14 +182,12 @@ fn choose_activities(
 fn choose_sub_role(
     senses: &Perception,
     strategy: &Strategy,
-    role: usize,
     memory: &mut Memory,
     activity: &mut Activity,
     tick: u64,
 ) {
-    let spec = &strategy.roles[role];
-    let wanted = match &spec.part {
-        Part::Plays { .. } => role,
+    let wanted = match &strategy.roles[senses.role].part {
+        Part::Plays(_) => senses.role,
         Part::ActsAs(sub_roles) => {
             let fits = first_that_holds(sub_roles.iter().map(|sub_role| &sub_role.when), senses, memory);
             match fits {
@@ -208,17 +219,6 @@ fn first_that_holds<'a>(
         let holds = senses.holds(feature, memory);
         first.or(holds.then_some(index))
     })
-}
-
-/// A role with several homebases takes the one that is nearest to the robot, with a little loyalty to the present one.
-fn choose_homebase(own: Vec2, strategy: &Strategy, activity: &mut Activity) {
-    const LOYALTY: f32 = 0.3;
-    let (.., homebases) = played(&strategy.roles[activity.acting_as]);
-    let present = activity.homebase;
-    let cost = |home: &Vec2| home.distance(own) - if *home == present { LOYALTY } else { 0.0 };
-    if let Some(nearest) = homebases.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))) {
-        activity.homebase = *nearest;
-    }
 }
 
 fn take_transition(

@@ -46,6 +46,9 @@ struct MatchOptions {
     /// The away team's strategy.
     #[arg(long, value_name = "STRATEGY")]
     away: Option<String>,
+    /// The radio: a name among the assets or a path.
+    #[arg(long, value_name = "RADIO")]
+    radio: Option<String>,
     /// Equal seeds give equal matches.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -60,6 +63,7 @@ impl MatchOptions {
             file: self.file.clone(),
             home: self.home.clone(),
             away: self.away.clone(),
+            radio: self.radio.clone(),
             half_minutes: self.minutes,
             seed: self.seed,
             pilot,

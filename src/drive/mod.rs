@@ -35,7 +35,7 @@ type Commanded<'a> =
 fn command_wheels(clock: Res<Clock>, state: Res<MatchState>, mut robots: Query<Commanded>) {
     for (robot, intent, pilot, odometry, mut command, off_pitch) in &mut robots {
         let Drive::Differential(drive) = &robot.kind.drive;
-        let wanted = if state.phase != Phase::Playing || off_pitch {
+        let wanted = if state.phase != Phase::Playing || off_pitch || !robot.condition.drives() {
             WheelSpeeds::default()
         } else if let Some(pilot) = pilot {
             piloted(pilot, drive)

@@ -17,7 +17,7 @@ use crate::referee::{Calls, Decision, MatchState, judge};
 use crate::robot::{OffPitch, RobotBodies, WheelCommand};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::{Eyesight, Percepts};
-use crate::strategy::Strategies;
+use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::Role;
 use crate::world_model::WorldModel;
 
@@ -74,7 +74,7 @@ fn place_robots(
             let ends = state.attacking(id.team);
             let at = match *call {
                 Decision::RobotsPlaced { kick_off } if !state.is_removed(id) => {
-                    ends.turn_pose(kick_off_pose(&strategies, id, kick_off))
+                    ends.turn_pose(kick_off_pose(strategies.of(id.team), id, kick_off))
                 }
                 Decision::RobotReturned { robot, at } if robot == id => at,
                 Decision::RobotRemoved { robot, .. } if robot == id => beside_the_pitch(&pitch, id),
@@ -115,9 +115,8 @@ impl CarriedItem<'_, '_> {
 }
 
 /// A robot's place at a kick-off, in its team frame, looking at the opponents' goal.
-fn kick_off_pose(strategies: &Strategies, id: RobotId, kick_off: Team) -> Pose {
-    let places = &strategies.of(id.team).kick_off;
-    let places = if kick_off == id.team { &places.ours } else { &places.theirs };
+fn kick_off_pose(strategy: &Strategy, id: RobotId, kick_off: Team) -> Pose {
+    let places = if kick_off == id.team { &strategy.kick_off.ours } else { &strategy.kick_off.theirs };
     let place = places.get(usize::from(id.number)).copied().unwrap_or_default();
     Pose { position: place, heading: 0.0 }
 }

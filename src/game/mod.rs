@@ -10,6 +10,7 @@ pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
 use crate::clock::Clock;
 use crate::ids::Team;
 use crate::physics::open_world;
+use crate::radio::{Channel, Conditions, FaultRules, RadioLog, Traffic};
 use crate::record::Record;
 use crate::referee::{Calls, MatchState, Phase, Whistles};
 use crate::rng::Seed;
@@ -45,6 +46,11 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(Calls::default());
     world.insert_resource(Record::new(seed, plan.robots()));
     world.insert_resource(Requests::default());
+    world.insert_resource(Channel::new(seed, plan.radio.clone()));
+    world.insert_resource(Conditions::default());
+    world.insert_resource(FaultRules::default());
+    world.insert_resource(Traffic::default());
+    world.insert_resource(RadioLog::default());
     open_world(world, &plan.pitch, MatchEntity);
     spawn_ball(world, plan, seed);
     for id in plan.robots() {

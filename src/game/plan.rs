@@ -10,6 +10,7 @@ use crate::ball::BallKind;
 use crate::data::{AssetFolder, DataError, Field, Source, no_such};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
+use crate::radio::Radio;
 use crate::referee::RuleBook;
 use crate::robot::RobotKind;
 use crate::sense::Sensing;
@@ -23,8 +24,14 @@ pub struct MatchFile {
     pub pitch: String,
     pub ball: BallKind,
     pub rules: RuleBook,
+    #[serde(default = "default_radio")]
+    pub radio: String,
     pub home: TeamFile,
     pub away: TeamFile,
+}
+
+fn default_radio() -> String {
+    DEFAULT_RADIO.into()
 }
 
 /// One side of a match: names of files.
@@ -43,6 +50,7 @@ pub struct Choice {
     pub file: Option<String>,
     pub home: Option<String>,
     pub away: Option<String>,
+    pub radio: Option<String>,
     /// Minutes of a half.
     pub half_minutes: Option<f32>,
     pub seed: u64,
@@ -57,6 +65,7 @@ pub struct MatchPlan {
     pub pitch: Pitch,
     pub ball: BallKind,
     pub rules: RuleBook,
+    pub radio: Radio,
     /// Home first.
     pub teams: [TeamPlan; 2],
     pub seed: u64,
@@ -75,6 +84,8 @@ pub struct TeamPlan {
 
 /// The match that is played unless another is named.
 pub const DEFAULT_MATCH: &str = "friendly";
+/// The radio that a match has unless it names another.
+pub const DEFAULT_RADIO: &str = "good";
 
 impl MatchPlan {
     /// Reads everything that a match needs.
@@ -97,6 +108,8 @@ impl MatchPlan {
             }
         }
         let pitch = checked(&assets.file("pitches", &file.pitch), Pitch::fault)?;
+        let radio = choice.radio.as_ref().unwrap_or(&file.radio);
+        let radio = checked(&assets.file("radios", radio), Radio::fault)?;
         file.home.strategy = choice.home.clone().unwrap_or(file.home.strategy);
         file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
         let teams = [TeamPlan::read(assets, &file.home)?, TeamPlan::read(assets, &file.away)?];
@@ -105,6 +118,7 @@ impl MatchPlan {
             pitch,
             ball: file.ball,
             rules: file.rules,
+            radio,
             teams,
             seed: choice.seed,
             pilot: choice.pilot,

@@ -16,11 +16,12 @@ use crate::motor::{Contributions, MotorDice, SteeringIntent};
 use crate::perception::Memory;
 use crate::physics::register_bodies;
 use crate::pilot::Pilot;
+use crate::radio::{Inbox, Outbox};
 use crate::rng::Seed;
 use crate::robot::{Robot, RobotBodies, RobotKind, Trailer, WheelCommand, jaws};
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;
-use crate::teamwork::Role;
+use crate::teamwork::{Role, Swapping, TeamPicture};
 use crate::world_model::WorldModel;
 
 /// Spawns the ball on the centre spot.
@@ -57,6 +58,9 @@ pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, se
     if let Some(unit_body) = handle(unit) {
         let bodies = RobotBodies { unit: unit_body, trailer: trailer.and_then(handle) };
         world.entity_mut(unit).insert(bodies);
+    }
+    if let Some(swapping) = Swapping::new(&team.strategy, id, seed) {
+        world.entity_mut(unit).insert(swapping);
     }
     if plan.pilot == Some(id) {
         world.entity_mut(unit).insert(Pilot::default());
@@ -95,6 +99,9 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
             ),
             (
                 Role(entry.role),
+                TeamPicture::new(entry.strategy),
+                Inbox::default(),
+                Outbox::default(),
                 Activity::new(entry.strategy, entry.role, 0),
                 Memory::new(entry.strategy.slots),
                 WorldModel::default(),

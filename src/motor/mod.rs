@@ -72,16 +72,12 @@ fn run_assemblages(
     mut robots: Query<Moved, Without<OffPitch>>,
 ) {
     for (mut mind, activity, mut intent, mut contributions, mut dice) in &mut robots {
-        if !mind.robot.decides(&clock) {
+        let wits = &mind.wits;
+        if !wits.robot.decides(&clock) {
             continue;
         }
-        let strategy = strategies.of(mind.id.team);
-        let senses = perception(
-            (*mind.id, mind.robot, mind.model, mind.odometry),
-            activity,
-            strategy,
-            (&clock, &pitch, &ball),
-        );
+        let strategy = strategies.of(wits.id.team);
+        let senses = perception(wits, activity, strategy, (&clock, &pitch, &ball));
         let state = strategy.state(activity.machine(strategy), activity.state);
         let memory = &mut *mind.memory;
         match state.assemblage {
@@ -93,7 +89,7 @@ fn run_assemblages(
                 contributions.sum = Vec2::ZERO;
             }
         }
-        *intent = intend(contributions.sum, state, &senses, memory, mind.odometry.pose.heading);
+        *intent = intend(contributions.sum, state, &senses, memory, wits.odometry.pose.heading);
     }
 }
 

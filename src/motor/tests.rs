@@ -12,7 +12,7 @@ const ODOMETRY: f32 = 1.0;
 
 fn driving(speed: f32) -> State {
     let (name, transitions) = ("test".into(), vec![]);
-    State { name, assemblage: Some(0), speed, reverse: false, turn: Turn::Stay, transitions }
+    State { name, assemblage: Some(0), speed, reverse: false, turn: Turn::Stay, acquires: false, transitions }
 }
 
 /// What a robot intends that looks along +y with the ball at (2, 0).

@@ -8,13 +8,19 @@ use crate::data::Source;
 use crate::geometry::{Pose, Zone};
 use crate::ids::Team;
 use crate::pitch::Pitch;
+use crate::protocol::role_swap::Assignment;
+use crate::radio::Radio;
 use crate::robot::RobotKind;
 use crate::strategy::Strategy;
-use crate::world_model::{BallBelief, RobotBelief, WorldModel};
+use crate::strategy::teamwork::{Mechanism, Teamwork};
+use crate::teamwork::TeamPicture;
+use crate::world_model::{BallBelief, MateBelief, RobotBelief, WorldModel};
 
 /// What a home robot believes, and the rest of a [`Perception`]; change what a test is about.
 pub struct Situation {
     pub model: WorldModel,
+    pub picture: TeamPicture,
+    pub teamwork: Teamwork,
     pub pitch: Pitch,
     pub now: f32,
     pub ball_age: Option<f32>,
@@ -33,6 +39,8 @@ impl Situation {
     pub fn at(x: f32, y: f32, degrees: f32) -> Situation {
         Situation {
             model: WorldModel::told(Pose::new(x, y, degrees.to_radians())),
+            picture: TeamPicture::of(Assignment::new([0, 1, 2, 3])),
+            teamwork: Teamwork::default(),
             pitch: pitch(),
             now: 0.0,
             ball_age: None,
@@ -55,10 +63,27 @@ impl Situation {
         self
     }
 
+    /// A team mate that has told where it is.
+    pub fn mate(mut self, number: u8, x: f32, y: f32) -> Situation {
+        let (position, heading) = (Vec2::new(x, y), Vec2::X);
+        self.model.mates.push(MateBelief { number, position, heading, time: 0, heard: 0 });
+        self
+    }
+
+    /// Switches a mechanism of teamwork on.
+    pub fn with(mut self, mechanism: Mechanism) -> Situation {
+        let on = Mechanism::ALL.into_iter().filter(|other| self.teamwork.has(*other));
+        self.teamwork.mechanisms = on.chain([mechanism]).collect();
+        self
+    }
+
     pub fn senses(&self) -> Perception<'_> {
         Perception {
             team: Team::Home,
+            role: 2,
             model: &self.model,
+            picture: &self.picture,
+            teamwork: &self.teamwork,
             pitch: &self.pitch,
             danger_zone: Situation::DANGER_ZONE,
             homebase: Situation::HOMEBASE,
@@ -88,6 +113,20 @@ pub const BALL: BallKind = BallKind {
 pub fn pitch() -> Pitch {
     let text = include_str!("../../assets/pitches/middle_size_2001.ron");
     Source::new("pitch.ron", text).parse().expect("the shipped pitch is sound")
+}
+
+/// The shipped radio that loses nothing.
+pub fn perfect_radio() -> Radio {
+    let text = include_str!("../../assets/radios/perfect.ron");
+    Source::new("perfect.ron", text).parse().expect("the shipped radio is sound")
+}
+
+/// A strategy of one player that does nothing.
+pub fn idle() -> Strategy {
+    let role =
+        r#"Plays(tag: "I", machine: "m", danger_zone: (min: (0, 0), max: (1, 1)), homebases: [(0, 0)])"#;
+    let machine = r#"machines: {"m": (start: "s", states: {"s": ()})}"#;
+    strategy("idle", &format!("schemas: {{}}, assemblages: {{}}, {machine}, roles: {{\"idle\": {role}}}"))
 }
 
 /// The shipped robot, which decides 20 times a second.

@@ -3,6 +3,7 @@
 #[cfg(test)]
 pub(crate) mod fixture;
 mod memory;
+mod teammates;
 #[cfg(test)]
 mod tests;
 
@@ -21,6 +22,8 @@ use crate::schemas::operators::{
     within_or_closest,
 };
 use crate::strategy::language::{Feature, Point, Points, ZoneName};
+use crate::strategy::teamwork::{Mechanism, Teamwork};
+use crate::teamwork::TeamPicture;
 use crate::world_model::{EXPECTED_ROLLING, WorldModel, roll_on};
 
 /// A set of points in the team frame. Few enough to need no allocation.
@@ -30,7 +33,11 @@ pub type PointSet = SmallVec<[Vec2; 16]>;
 #[derive(Clone, Copy, Debug)]
 pub struct Perception<'a> {
     pub team: Team,
+    /// The robot's role, as an index into the strategy's roles; not the sub-role that it acts in.
+    pub role: usize,
     pub model: &'a WorldModel,
+    pub picture: &'a TeamPicture,
+    pub teamwork: &'a Teamwork,
     pub pitch: &'a Pitch,
     pub danger_zone: Zone,
     pub homebase: Vec2,
@@ -72,6 +79,12 @@ impl Perception<'_> {
             Point::TheirGoal => Some(self.pitch.goal_centre()),
             Point::Homebase => Some(self.homebase),
             Point::Own => Some(self.own().position),
+            Point::Carrier => self.carrier(),
+            Point::Teammate(role) => Some(self.model.mate(self.picture.holder_of(role.index)?)?.position),
+            Point::SupportSpot { behind, aside } => self.support_spot(*behind, *aside),
+            Point::AwayFromGoalie { x, y } => {
+                Some(Vec2::new(*x, self.picture.goalie.away(*y, self.own().position)))
+            }
             Point::At(place) => Some(*place),
             Point::Closest(of) => {
                 let own = self.own().position;
@@ -105,7 +118,9 @@ impl Perception<'_> {
     pub fn points(&self, points: &Points, memory: &mut Memory) -> PointSet {
         let own = self.own().position;
         match points {
-            Points::Teammates => self.model.of_team(self.team).collect(),
+            Points::Teammates => self.teammates(),
+            Points::Superiors => self.superiors(),
+            Points::Claimant => self.carrier().into_iter().collect(),
             Points::Opponents => self.model.of_team(self.team.opponent()).collect(),
             Points::Walls => {
                 // A robot that believes itself beyond a wall is mistaken, and the wall is still between it and the world.
@@ -193,6 +208,13 @@ impl Perception<'_> {
                 let free = local.x - self.front - self.ball_radius;
                 local.x > 0.0 && free <= *gap && local.y.abs() <= *aside
             }),
+            Feature::On(mechanism) => self.teamwork.has(*mechanism),
+            Feature::HasBall => self.picture.has_ball,
+            Feature::TeammateHasBall(roles) => self
+                .picture
+                .carrier
+                .is_some_and(|(_, role)| roles.is_empty() || roles.iter().any(|wanted| wanted.index == role)),
+            Feature::GoalieIsOut => self.teamwork.has(Mechanism::GoalieSupport) && self.picture.goalie.is_out,
             Feature::Stalled(seconds) => self.stalled_for >= *seconds,
             Feature::After(seconds) => self.time_in_state >= *seconds,
             Feature::HoldFor { what, seconds, slot } => {

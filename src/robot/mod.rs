@@ -1,5 +1,6 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
+mod condition;
 mod kind;
 mod wheel_speeds;
 
@@ -8,17 +9,18 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
+pub use condition::{Ailment, Condition, Recall};
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
 pub use wheel_speeds::WheelSpeeds;
 
 use crate::clock::Clock;
 use crate::ids::RobotId;
 
-/// A robot; its entity is its drive unit.
+/// A robot; its entity is its drive unit. Its condition is changed by the Script stage only.
 #[derive(Component, Clone, Debug)]
-#[component(immutable)]
 pub struct Robot {
     pub kind: Arc<RobotKind>,
+    pub condition: Condition,
     /// Ticks between two decisions.
     decision_ticks: u64,
 }
@@ -26,12 +28,17 @@ pub struct Robot {
 impl Robot {
     pub fn new(kind: Arc<RobotKind>, clock: &Clock) -> Robot {
         let decision_ticks = clock.ticks(1.0 / kind.control_hz);
-        Robot { kind, decision_ticks }
+        Robot { kind, condition: Condition::default(), decision_ticks }
     }
 
     /// Whether the robot's control system decides in this tick.
     pub fn decides(&self, clock: &Clock) -> bool {
-        clock.tick.is_multiple_of(self.decision_ticks)
+        !self.condition.crashed && self.is_due(clock.tick)
+    }
+
+    /// Whether a decision falls into a tick, as long as the robot is on.
+    pub fn is_due(&self, tick: u64) -> bool {
+        tick.is_multiple_of(self.decision_ticks)
     }
 }
 

@@ -1,6 +1,10 @@
 //! The Script stage: what comes from outside a match. Requests wait in [`Requests`] and take effect at the next tick, in the
 //! order in which they were made.
 
+mod air;
+mod bodies;
+mod requests;
+mod robots;
 #[cfg(test)]
 mod tests;
 
@@ -16,57 +20,36 @@ use crate::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::Role;
+pub use requests::{Request, Requests, Shove, Treatment, Weather};
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Requests>().add_systems(Tick, carry_out_requests.in_set(TickSystems::Script));
-}
-
-/// What people ask of a running match.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Request {
-    /// A person takes the robot over.
-    TakeOver(RobotId),
-    /// The robot's strategy takes it back.
-    HandBack(RobotId),
-    /// What the person at the controls does to the robot; see [`Pilot`]. Nothing, if nobody drives it.
-    Steer { robot: RobotId, pilot: Pilot },
-    /// The weight of a term of an assemblage, both by index.
-    SetWeight { team: Team, assemblage: usize, term: usize, weight: f32 },
-    /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow).
-    ChangeStrategy { team: Team, strategy: Arc<Strategy> },
-}
-
-/// Requests that wait for the next tick.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Requests(Vec<Request>);
-
-impl Requests {
-    pub fn ask(&mut self, request: Request) {
-        self.0.push(request);
-    }
-
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
+    let in_order = (
+        carry_out_requests,
+        air::change_weather,
+        robots::treat_robots,
+        bodies::shove_bodies,
+        forget_requests,
+    );
+    app.init_resource::<Requests>().add_systems(Tick, in_order.chain().in_set(TickSystems::Script));
 }
 
 type Scripted<'a> = (Entity, &'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory, Has<Pilot>);
 
 fn carry_out_requests(
     clock: Res<Clock>,
-    mut requests: ResMut<Requests>,
+    requests: Res<Requests>,
     mut strategies: ResMut<Strategies>,
     mut commands: Commands,
     mut robots: Query<Scripted>,
 ) {
-    if requests.0.is_empty() {
+    if requests.is_empty() {
         return;
     }
     let entity_of = |wanted: RobotId, robots: &Query<Scripted>| {
         robots.iter().find(|(_, id, ..)| **id == wanted).map(|(entity, ..)| entity)
     };
     let mut seats: Vec<RobotId> = robots.iter().filter(|seat| seat.5).map(|(_, id, ..)| *id).collect();
-    for request in std::mem::take(&mut requests.0) {
+    for request in requests.iter().cloned() {
         match request {
             Request::TakeOver(robot) => {
                 seats.push(robot);
@@ -96,7 +79,14 @@ fn carry_out_requests(
             Request::ChangeStrategy { team, strategy } => {
                 change_strategy(team, strategy, &clock, &mut strategies, &mut robots);
             }
+            Request::Robot(..) | Request::Air(_) | Request::Body(_) => {}
         }
+    }
+}
+
+fn forget_requests(mut requests: ResMut<Requests>) {
+    if !requests.is_empty() {
+        requests.clear();
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::ids::Team::{Away, Home};
-use crate::perception::fixture::strategy;
+use crate::perception::fixture::{perfect_radio, strategy};
+use crate::radio::{Channel, Conditions, FaultRules};
+use crate::rng::Seed;
 
 /// Two schemas in one assemblage, one machine, two roles; the first one plays.
 const PIECES: &str = r#"
@@ -34,6 +36,8 @@ fn app() -> App {
         app.world_mut().spawn((id, Role(role), activity, Memory::new(strategy.slots)));
     }
     app.insert_resource(Strategies([strategy.clone(), strategy]));
+    app.insert_resource(Channel::new(Seed(1), perfect_radio()));
+    app.insert_resource(Conditions::default()).insert_resource(FaultRules::default());
     app
 }
 

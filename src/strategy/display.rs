@@ -17,6 +17,13 @@ impl fmt::Display for Feature {
             Feature::Not(what) => write!(f, "not {what}"),
             Feature::All(parts) => list(f, parts, " and "),
             Feature::Any(parts) => list(f, parts, " or "),
+            Feature::HasBall => f.write_str("has the ball"),
+            Feature::TeammateHasBall(roles) if roles.is_empty() => f.write_str("a team mate has the ball"),
+            Feature::TeammateHasBall(roles) => {
+                let names: Vec<&str> = roles.iter().map(|role| role.name.as_str()).collect();
+                write!(f, "the {} has the ball", names.join(" or "))
+            }
+            Feature::GoalieIsOut => f.write_str("the goalie is out"),
             Feature::After(seconds) => write!(f, "after {seconds} s"),
             Feature::Stalled(seconds) => write!(f, "stalled for {seconds} s"),
             Feature::HoldFor { what, .. } => write!(f, "lately {what}"),

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::HomebaseRule;
 use super::language::{Feature, Point, Points, Schema};
+use super::teamwork::TeamworkFile;
 use crate::geometry::Zone;
 
 /// A whole strategy file.
@@ -32,6 +34,8 @@ pub struct StrategyFile {
     pub assemblages: BTreeMap<String, AssemblageFile>,
     pub machines: BTreeMap<String, MachineFile>,
     pub roles: BTreeMap<String, RoleFile>,
+    #[serde(default)]
+    pub teamwork: TeamworkFile,
 }
 
 /// Where people put the robots for a kick-off, by number: x, y in the team frame, looking at the opponents' goal.
@@ -72,6 +76,9 @@ pub struct StateFile {
     /// Drives with the rear ahead.
     #[serde(default)]
     pub reverse: bool,
+    /// Whether it is an acquire behaviour, in which the ball can be claimed.
+    #[serde(default)]
+    pub acquires: bool,
     /// What to turn to while standing.
     #[serde(default)]
     pub turn: TurnFile,
@@ -112,8 +119,10 @@ pub enum RoleFile {
         machine: String,
         /// The zone of control (figure 2); may reach beyond the pitch to allow for errors in localisation.
         danger_zone: Zone,
-        /// Where to go without a ball: the nearest of these.
+        /// Where to go without a ball: one of these.
         homebases: Vec<Vec2>,
+        #[serde(default)]
+        homebase_rule: HomebaseRule,
     },
     /// The first sub-role whose feature holds; the last one chosen, while none does.
     ActsAs { tag: String, sub_roles: Vec<SubRoleFile> },

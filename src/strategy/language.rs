@@ -7,7 +7,29 @@
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::teamwork::Mechanism;
 use crate::geometry::Zone;
+use crate::protocol::role_swap::RoleIndex;
+
+/// A role by its name, and its place among the strategy's roles once the strategy is loaded.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
+pub struct RoleRef {
+    pub name: String,
+    pub index: RoleIndex,
+}
+
+impl From<String> for RoleRef {
+    fn from(name: String) -> RoleRef {
+        RoleRef { name, index: 0 }
+    }
+}
+
+impl From<RoleRef> for String {
+    fn from(role: RoleRef) -> String {
+        role.name
+    }
+}
 
 /// One place on the field, or nowhere while it is unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +49,20 @@ pub enum Point {
     Homebase,
     /// Where the robot believes it is itself.
     Own,
+    /// The team mate that has claimed the ball.
+    Carrier,
+    /// The team mate in a role, as far as it is known who that is.
+    Teammate(RoleRef),
+    /// `behind` metres behind the carrier and `aside` metres off its way to their goal, on the side where the robot is.
+    SupportSpot {
+        behind: f32,
+        aside: f32,
+    },
+    /// A point on the half of the field that the goalie did not last leave or enter its area by; `y` is how far from the middle.
+    AwayFromGoalie {
+        x: f32,
+        y: f32,
+    },
     At(Vec2),
     /// The member of a set that is nearest to the robot.
     Closest(Box<Points>),
@@ -70,6 +106,10 @@ pub enum Points {
     Named(String),
     Teammates,
     Opponents,
+    /// The team mates that rank above the robot; all of them where there is no hierarchy.
+    Superiors,
+    /// The team mate that has claimed the ball, if there is one.
+    Claimant,
     /// The nearest point of each of the four walls.
     Walls,
     /// Exactly these.
@@ -174,6 +214,14 @@ pub enum Feature {
         gap: f32,
         aside: f32,
     },
+    /// A mechanism of teamwork is on.
+    On(Mechanism),
+    /// The robot's own claim of the ball holds.
+    HasBall,
+    /// A team mate's claim of the ball holds, one in one of these roles; any, if none is named.
+    TeammateHasBall(Vec<RoleRef>),
+    /// The goalie has said that it left its area, and not that it is back.
+    GoalieIsOut,
     /// The wheels have been turning for so many seconds without moving the robot.
     Stalled(f32),
     /// The robot has been in its present state for so many seconds.

@@ -7,17 +7,20 @@ mod display;
 mod file;
 pub mod language;
 mod resolve;
+pub mod teamwork;
 
 use std::path::Path;
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::data::{DataError, Source};
 use crate::geometry::Zone;
 use crate::ids::Team;
 pub use file::{KickOff, StrategyFile};
-use language::{Feature, Point, Schema};
+use language::{Feature, Point, RoleRef, Schema};
+use teamwork::Teamwork;
 
 /// A strategy that can be played: every name is an index, every number is sound.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +34,7 @@ pub struct Strategy {
     pub kick_off: KickOff,
     pub machines: Vec<Machine>,
     pub assemblages: Vec<Assemblage>,
+    pub teamwork: Teamwork,
     /// How many memories its stateful operators need.
     pub slots: usize,
 }
@@ -46,8 +50,32 @@ pub struct RoleSpec {
 /// A role plays a machine itself or acts as other roles by turns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
-    Plays { machine: usize, danger_zone: Zone, homebases: Vec<Vec2> },
+    Plays(Play),
     ActsAs(Vec<SubRole>),
+}
+
+/// What a role that plays itself consists of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Play {
+    pub machine: usize,
+    /// The zone of control (figure 2).
+    pub danger_zone: Zone,
+    pub homebases: Vec<Vec2>,
+    pub homebase_rule: HomebaseRule,
+}
+
+/// Which of its homebases a role takes (section V-B).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum HomebaseRule {
+    /// The one that is nearest to the robot.
+    #[default]
+    Nearest,
+    /// The nearest on the other side of the field than the goalie entered its area by.
+    AwayFromGoalie,
+    /// The one that is farthest from the team mate in a role.
+    FarthestFrom(RoleRef),
+    /// The nearest that is not also the nearest for the team mate in a role.
+    NotNearestOf(RoleRef),
 }
 
 /// Another role, and when to act in it.
@@ -73,6 +101,8 @@ pub struct State {
     pub speed: f32,
     pub reverse: bool,
     pub turn: Turn,
+    /// Whether it is an acquire behaviour, in which the ball can be claimed.
+    pub acquires: bool,
     pub transitions: Vec<Transition>,
 }
 

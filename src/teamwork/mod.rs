@@ -1,8 +1,31 @@
-//! The Teamwork stage's components: what robots arrange among themselves.
+//! The Teamwork stage: what robots tell each other and arrange among themselves.
 //!
-//! So far a role is fixed at kick-off. Messages, claims, supports and role swaps belong here.
+//! A robot listens to what came in, takes its part in role swaps, claims the ball if it is its to claim, and says what the
+//! others should know. What it wants to say waits in its outbox for the Transmit stage.
+
+mod claims;
+mod goalie;
+mod listen;
+mod picture;
+pub mod policy;
+mod swap;
+mod talk;
+#[cfg(test)]
+mod tests;
 
 use bevy::prelude::*;
+
+pub use claims::{Claim, Claims};
+pub use goalie::GoalieWhereabouts;
+pub use picture::{Said, TeamPicture, kick_off_roles};
+pub use swap::Swapping;
+
+use crate::schedule::{Tick, TickSystems};
+
+pub(super) fn plugin(app: &mut App) {
+    let in_order = (listen::hear_news, swap::swap_roles, talk::claim_ball, talk::tell_team).chain();
+    app.add_systems(Tick, in_order.in_set(TickSystems::Teamwork));
+}
 
 /// A robot's role: an index into its strategy's roles.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]

@@ -17,10 +17,14 @@ pub use ball_filter::{BallFilter, roll_on};
 use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{RobotId, Team};
+use crate::messages::Message;
 use crate::pitch::Pitch;
+use crate::protocol::role_swap::Number;
+use crate::radio::Inbox;
 use crate::robot::{OffPitch, Robot};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
+use crate::strategy::Strategies;
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));
@@ -33,6 +37,8 @@ pub struct WorldModel {
     pub ball: Option<BallBelief>,
     /// The other robots, its own team's and the opponents', as far as it knows of them.
     pub robots: Vec<RobotBelief>,
+    /// The team mates that have told where they are lately.
+    pub mates: SmallVec<[MateBelief; 8]>,
     filter: Option<BallFilter>,
     /// Believed poses of the last decisions, oldest first: a frame is older than now.
     past: VecDeque<(u64, Pose)>,
@@ -50,6 +56,20 @@ pub struct BallBelief {
     pub velocity: Vec2,
     /// The tick of the frame that showed it last.
     pub seen: u64,
+}
+
+/// A team mate that has told where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MateBelief {
+    pub number: Number,
+    /// m, where it believed itself to be.
+    pub position: Vec2,
+    /// A unit vector.
+    pub heading: Vec2,
+    /// Milliseconds on its clock when it said so.
+    pub time: u32,
+    /// The tick in which it was heard.
+    pub heard: u64,
 }
 
 /// Another robot that a robot believes in.
@@ -85,6 +105,17 @@ impl WorldModel {
         WorldModel { pose, ..WorldModel::default() }
     }
 
+    pub fn mate(&self, number: Number) -> Option<&MateBelief> {
+        self.mates.iter().find(|mate| mate.number == number)
+    }
+
+    /// The team mates seen that are none of those heard.
+    pub fn strangers(&self, team: Team) -> impl Iterator<Item = Vec2> + '_ {
+        let is_known = |seen: &Vec2| self.mates.iter().any(|mate| mate.position.distance(*seen) < SAME_ROBOT);
+        self.of_team(team).filter(move |seen| !is_known(seen))
+    }
+
+    /// The robots of a team that were seen.
     pub fn of_team(&self, team: Team) -> impl Iterator<Item = Vec2> + '_ {
         self.robots.iter().filter(move |robot| robot.team == team).map(|robot| robot.position)
     }
@@ -203,6 +234,32 @@ impl WorldModel {
         }
     }
 
+    /// Takes note of position messages; one that was overtaken by a later one is no news.
+    fn hear(&mut self, inbox: &Inbox, tick: u64) {
+        for message in &inbox.0 {
+            let Message::Position(said) = &message.message else { continue };
+            let mate = MateBelief {
+                number: message.from,
+                position: said.position,
+                heading: said.heading,
+                time: said.time,
+                heard: tick,
+            };
+            match self.mates.iter_mut().find(|known| known.number == mate.number) {
+                Some(known) if mate.time < known.time => {}
+                Some(known) => *known = mate,
+                None => {
+                    self.mates.push(mate);
+                    self.mates.sort_unstable_by_key(|mate| mate.number);
+                }
+            }
+        }
+    }
+
+    fn forget_mates(&mut self, tick: u64, memory: u64) {
+        self.mates.retain(|mate| tick.saturating_sub(mate.heard) <= memory);
+    }
+
     fn forget(&mut self, eyesight: &Eyesight, clock: &Clock) {
         let spans = eyesight.sensing.memory;
         let age = |seen: u64| clock.tick.saturating_sub(seen) as f32 * clock.dt;
@@ -237,14 +294,16 @@ fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
     }
 }
 
-type Minds<'a> = (&'a Robot, &'a Eyesight, &'a Percepts, &'a Odometry, &'a mut WorldModel);
+type Minds<'a> =
+    (&'a RobotId, &'a Robot, &'a Inbox, &'a Eyesight, &'a Percepts, &'a Odometry, &'a mut WorldModel);
 
 fn update_world_models(
     clock: Res<Clock>,
     pitch: Res<Pitch>,
-    mut robots: Query<Minds, (With<RobotId>, Without<OffPitch>)>,
+    strategies: Res<Strategies>,
+    mut robots: Query<Minds, Without<OffPitch>>,
 ) {
-    for (robot, eyesight, percepts, odometry, mut model) in &mut robots {
+    for (id, robot, inbox, eyesight, percepts, odometry, mut model) in &mut robots {
         if !robot.decides(&clock) {
             continue;
         }
@@ -265,6 +324,8 @@ fn update_world_models(
             ball.position = position.clamp(-half - pitch.goal.depth, half + pitch.goal.depth);
             ball.velocity = velocity;
         }
+        model.hear(inbox, clock.tick);
+        model.forget_mates(clock.tick, clock.ticks(strategies.of(id.team).teamwork.talk.position_memory));
         model.forget(eyesight, &clock);
     }
 }

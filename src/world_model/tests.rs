@@ -8,7 +8,7 @@ use bevy::ecs::system::RunSystemOnce;
 use super::*;
 use crate::data::Source;
 use crate::ids::Team::{Away, Home};
-use crate::perception::fixture::{cye, pitch};
+use crate::perception::fixture::{cye, idle, pitch};
 use crate::rng::Seed;
 use crate::sense::{MemorySpans, Sensing};
 
@@ -35,10 +35,12 @@ impl Bench {
         let clock = Clock::new(60.0);
         world.insert_resource(clock);
         world.insert_resource(pitch());
+        let strategy = Arc::new(idle());
+        world.insert_resource(Strategies([strategy.clone(), strategy]));
         let robot = Robot::new(Arc::new(cye()), &clock);
         let eyesight = Eyesight::new(Arc::new(sensing), Seed(1), id);
         let senses = (eyesight, Percepts::default(), Odometry::new(Seed(1), id));
-        let robot = world.spawn((id, robot, senses, WorldModel::told(start))).id();
+        let robot = world.spawn((id, robot, senses, Inbox::default(), WorldModel::told(start))).id();
         let mut bench = Bench { world, robot, start };
         bench.decide(0);
         bench

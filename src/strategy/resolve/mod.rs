@@ -1,6 +1,7 @@
 //! From a strategy file to a strategy: looks every name up, checks every number, and numbers the memories of stateful
 //! operators. The first fault is reported with its place in the file.
 
+mod teamwork;
 mod words;
 
 use std::collections::BTreeMap;
@@ -10,7 +11,8 @@ use bevy::prelude::Vec2;
 use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile};
 use super::language::Feature;
 use super::{
-    Assemblage, Combination, Machine, Part, RoleSpec, State, Strategy, SubRole, Term, Transition, Turn,
+    Assemblage, Combination, HomebaseRule, Machine, Part, Play, RoleSpec, State, Strategy, SubRole, Term,
+    Transition, Turn,
 };
 use crate::data::{DataError, Field, Source, no_such};
 use crate::geometry::Zone;
@@ -41,6 +43,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source) -> Result<Strategy> 
         kick_off: file.kick_off.clone(),
         machines,
         assemblages,
+        teamwork: resolver.teamwork(&root.key("teamwork"))?,
         slots: resolver.slots,
     })
 }
@@ -209,6 +212,7 @@ impl Resolver<'_> {
             assemblage,
             speed: file.speed,
             reverse: file.reverse,
+            acquires: file.acquires,
             turn,
             transitions,
         })
@@ -216,14 +220,21 @@ impl Resolver<'_> {
 
     fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Result<RoleSpec> {
         let (tag, part) = match file {
-            RoleFile::Plays { tag, machine, danger_zone, homebases } => {
+            RoleFile::Plays { tag, machine, danger_zone, homebases, homebase_rule } => {
                 let machine = self.index(&self.file.machines, "machine", machine, &at.key("machine"))?;
                 self.finite_zone(*danger_zone, &at.key("danger_zone"))?;
                 if homebases.is_empty() || homebases.iter().any(|home| !home.is_finite()) {
                     return self
                         .fault(&at.key("homebases"), "needs at least one homebase, all of them finite");
                 }
-                (tag, Part::Plays { machine, danger_zone: *danger_zone, homebases: homebases.clone() })
+                let mut homebase_rule = homebase_rule.clone();
+                if let HomebaseRule::FarthestFrom(role) | HomebaseRule::NotNearestOf(role) =
+                    &mut homebase_rule
+                {
+                    self.role_ref(role, &at.key("homebase_rule"))?;
+                }
+                let homebases = homebases.clone();
+                (tag, Part::Plays(Play { machine, danger_zone: *danger_zone, homebases, homebase_rule }))
             }
             RoleFile::ActsAs { tag, sub_roles } => {
                 let at = at.key("sub_roles");

@@ -3,7 +3,7 @@
 
 use super::{Resolver, Result, unknown};
 use crate::data::Field;
-use crate::strategy::language::{Feature, Point, Points, Schema, ZoneName};
+use crate::strategy::language::{Feature, Point, Points, RoleRef, Schema, ZoneName};
 
 impl Resolver<'_> {
     pub(super) fn point(&mut self, point: &mut Point, at: &Field) -> Result<()> {
@@ -11,7 +11,21 @@ impl Resolver<'_> {
             Point::Named(name) => {
                 *point = self.expand(&self.file.percepts, "percept", name, at, |s, p| s.point(p, at))?;
             }
-            Point::Ball | Point::OurGoal | Point::TheirGoal | Point::Homebase | Point::Own => {}
+            Point::Ball
+            | Point::OurGoal
+            | Point::TheirGoal
+            | Point::Homebase
+            | Point::Own
+            | Point::Carrier => {}
+            Point::Teammate(role) => self.role_ref(role, &at.index(0))?,
+            Point::SupportSpot { behind, aside } => {
+                self.finite(*behind, &at.key("behind"))?;
+                self.finite(*aside, &at.key("aside"))?;
+            }
+            Point::AwayFromGoalie { x, y } => {
+                self.finite(*x, &at.key("x"))?;
+                self.not_negative(*y, &at.key("y"))?;
+            }
             Point::BallIn(seconds) => self.not_negative(*seconds, at)?,
             Point::At(place) => self.finite_point(*place, at)?,
             Point::Closest(of) | Point::Average(of) => self.points(of, &at.index(0))?,
@@ -49,7 +63,7 @@ impl Resolver<'_> {
                 *points =
                     self.expand(&self.file.point_sets, "point set", name, at, |s, p| s.points(p, at))?;
             }
-            Points::Teammates | Points::Opponents | Points::Walls => {}
+            Points::Teammates | Points::Opponents | Points::Superiors | Points::Claimant | Points::Walls => {}
             Points::These(list) => {
                 for (i, point) in list.iter_mut().enumerate() {
                     self.point(point, &at.index(i))?;
@@ -84,6 +98,11 @@ impl Resolver<'_> {
         Ok(())
     }
 
+    pub(super) fn role_ref(&self, role: &mut RoleRef, at: &Field) -> Result<()> {
+        role.index = self.role_index(&role.name, at)?;
+        Ok(())
+    }
+
     fn zone(&mut self, zone: &mut ZoneName, at: &Field) -> Result<()> {
         match zone {
             ZoneName::Named(name) => match self.file.zones.get(name) {
@@ -101,7 +120,12 @@ impl Resolver<'_> {
             Feature::Is(name) => {
                 *feature = self.expand(&self.file.features, "feature", name, at, |s, f| s.feature(f, at))?;
             }
-            Feature::Always => {}
+            Feature::Always | Feature::On(_) | Feature::HasBall | Feature::GoalieIsOut => {}
+            Feature::TeammateHasBall(roles) => {
+                for (i, role) in roles.iter_mut().enumerate() {
+                    self.role_ref(role, &at.index(i))?;
+                }
+            }
             Feature::Not(what) => self.feature(what, &at.index(0))?,
             Feature::All(list) | Feature::Any(list) => {
                 for (i, part) in list.iter_mut().enumerate() {

@@ -1,0 +1,188 @@
+//! What a scenario or a person does to the radio while a match runs, on top of the preset.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use bevy::prelude::Resource;
+use serde::{Deserialize, Serialize};
+
+use super::faults::id_text;
+use crate::ids::RobotId;
+
+/// The present interference. The default is none.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Conditions {
+    /// Chance that a message is lost that the radio itself would have brought over.
+    pub extra_loss: f32,
+    /// Added to every message's latency, s.
+    pub extra_delay: f32,
+    /// Everything is lost.
+    pub jammed: bool,
+    /// Robots that hear nobody and are heard by nobody.
+    #[serde(with = "id_text::set")]
+    pub cut_off: BTreeSet<RobotId>,
+    pub partitions: Vec<Partition>,
+}
+
+/// Two groups of robots that do not hear each other. Robots in neither hear everybody.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Partition {
+    /// What parts them, for people to read.
+    pub reason: String,
+    #[serde(with = "id_text::set")]
+    pub one: BTreeSet<RobotId>,
+    #[serde(with = "id_text::set")]
+    pub other: BTreeSet<RobotId>,
+}
+
+/// Why a robot cannot hear another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Obstacle<'a> {
+    Jammed,
+    CutOff(RobotId),
+    Parted(&'a Partition),
+}
+
+impl Conditions {
+    /// What keeps `to` from hearing `from`. A robot that is cut off is named before a partition, the sender first.
+    pub fn obstacle(&self, from: RobotId, to: RobotId) -> Option<Obstacle<'_>> {
+        if self.jammed {
+            return Some(Obstacle::Jammed);
+        }
+        if let Some(id) = [from, to].into_iter().find(|id| self.cut_off.contains(id)) {
+            return Some(Obstacle::CutOff(id));
+        }
+        self.partitions.iter().find(|partition| partition.parts(from, to)).map(Obstacle::Parted)
+    }
+
+    /// What is wrong with the numbers, as the field's path and a reason.
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        if !(0.0..=1.0).contains(&self.extra_loss) {
+            return Some(("extra_loss", format!("must be between 0 and 1, not {}", self.extra_loss)));
+        }
+        if !(self.extra_delay.is_finite() && self.extra_delay >= 0.0) {
+            return Some(("extra_delay", format!("must be at least 0, not {}", self.extra_delay)));
+        }
+        let id = self.partitions.iter().find_map(|p| p.one.intersection(&p.other).next())?;
+        Some(("partitions", format!("{id} cannot be on both sides")))
+    }
+}
+
+impl Partition {
+    /// Whether these two robots do not hear each other.
+    pub fn parts(&self, a: RobotId, b: RobotId) -> bool {
+        (self.one.contains(&a) && self.other.contains(&b))
+            || (self.one.contains(&b) && self.other.contains(&a))
+    }
+}
+
+impl fmt::Display for Obstacle<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Obstacle::Jammed => f.write_str("the radio is jammed"),
+            Obstacle::CutOff(id) => write!(f, "{id} is cut off"),
+            Obstacle::Parted(partition) => f.write_str(&partition.reason),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::data::ron_options;
+    use crate::ids::Team;
+
+    fn home(number: u8) -> RobotId {
+        RobotId::new(Team::Home, number)
+    }
+
+    fn wall() -> Partition {
+        Partition { reason: "a wall".into(), one: [home(0), home(1)].into(), other: [home(2)].into() }
+    }
+
+    #[test]
+    fn nothing_stands_between_robots_unless_somebody_says_so() {
+        assert_eq!(Conditions::default().obstacle(home(0), home(1)), None);
+        assert_eq!(Conditions::default().fault(), None);
+    }
+
+    #[test]
+    fn a_robot_that_is_cut_off_neither_hears_nor_is_heard() {
+        let conditions = Conditions { cut_off: [home(1)].into(), ..Conditions::default() };
+        assert_eq!(conditions.obstacle(home(0), home(1)), Some(Obstacle::CutOff(home(1))));
+        assert_eq!(conditions.obstacle(home(1), home(0)), Some(Obstacle::CutOff(home(1))));
+        assert_eq!(conditions.obstacle(home(0), home(2)), None);
+    }
+
+    #[test]
+    fn two_groups_do_not_hear_each_other_but_each_itself_and_the_rest() {
+        let conditions = Conditions { partitions: vec![wall()], ..Conditions::default() };
+        assert_eq!(conditions.obstacle(home(0), home(2)), Some(Obstacle::Parted(&wall())));
+        assert_eq!(conditions.obstacle(home(2), home(1)), Some(Obstacle::Parted(&wall())));
+        assert_eq!(conditions.obstacle(home(0), home(1)), None);
+        assert_eq!(conditions.obstacle(home(2), home(3)), None);
+    }
+
+    #[test]
+    fn an_obstacle_tells_its_reason() {
+        let mut conditions = Conditions { partitions: vec![wall()], ..Conditions::default() };
+        let reason = |c: &Conditions| c.obstacle(home(0), home(2)).unwrap().to_string();
+        assert_eq!(reason(&conditions), "a wall");
+        conditions.cut_off.insert(home(2));
+        assert_eq!(reason(&conditions), "home 2 is cut off");
+        conditions.jammed = true;
+        assert_eq!(reason(&conditions), "the radio is jammed");
+    }
+
+    #[test]
+    fn a_bad_number_is_named_with_its_field() {
+        let none = Conditions::default();
+        assert_eq!(Conditions { extra_loss: 1.1, ..none.clone() }.fault().unwrap().0, "extra_loss");
+        assert_eq!(Conditions { extra_loss: f32::NAN, ..none.clone() }.fault().unwrap().0, "extra_loss");
+        assert_eq!(Conditions { extra_delay: -1.0, ..none.clone() }.fault().unwrap().0, "extra_delay");
+        let torn = Partition { other: [home(0)].into(), ..wall() };
+        let (field, reason) = Conditions { partitions: vec![torn], ..none }.fault().unwrap();
+        assert_eq!((field, reason.as_str()), ("partitions", "home 0 cannot be on both sides"));
+    }
+
+    #[test]
+    fn conditions_are_read_from_data_with_readable_robots() {
+        let text = r#"(
+            extra_loss: 0.1,
+            cut_off: ["home 3"],
+            partitions: [(reason: "a wall", one: ["home 0", "home:1"], other: ["home 2"])],
+        )"#;
+        let conditions: Conditions = ron_options().from_str(text).unwrap();
+        let expected = Conditions {
+            extra_loss: 0.1,
+            cut_off: [home(3)].into(),
+            partitions: vec![wall()],
+            ..Conditions::default()
+        };
+        assert_eq!(conditions, expected);
+        let written = ron_options().to_string(&conditions).unwrap();
+        assert!(written.contains("home 3"), "{written}");
+        assert_eq!(ron_options().from_str::<Conditions>(&written).unwrap(), expected);
+    }
+
+    proptest! {
+        #[test]
+        fn who_does_not_hear_is_not_heard(
+            cut_off in prop::collection::btree_set(0u8..6, 0..3),
+            one in prop::collection::btree_set(0u8..6, 0..4),
+            other in prop::collection::btree_set(0u8..6, 0..4),
+            (a, b) in (0u8..6, 0u8..6),
+        ) {
+            let ids = |numbers: BTreeSet<u8>| numbers.into_iter().map(home).collect::<BTreeSet<_>>();
+            let partition = Partition { reason: "test".into(), one: ids(one), other: ids(other) };
+            let conditions =
+                Conditions { cut_off: ids(cut_off), partitions: vec![partition], ..Conditions::default() };
+            let there = conditions.obstacle(home(a), home(b)).is_some();
+            prop_assert_eq!(there, conditions.obstacle(home(b), home(a)).is_some());
+        }
+    }
+}

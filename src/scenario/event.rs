@@ -1,0 +1,112 @@
+//! What a scenario's script does to the robots, the ball and the radio, and the teamwork that a scenario may be about.
+
+use bevy::prelude::Vec2;
+use serde::{Deserialize, Serialize};
+
+use super::robot_text;
+use crate::ids::RobotId;
+use crate::robot::Recall;
+use crate::strategy::teamwork::Mechanism;
+
+/// Something that happens at a time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimedEvent {
+    /// s since the scenario began.
+    pub at: f32,
+    pub what: Event,
+}
+
+/// An intervention. Points and velocities are in the pitch frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Event {
+    /// The robot stops dead: it neither moves nor thinks nor talks.
+    Crash(#[serde(with = "robot_text")] RobotId),
+    /// The wheels stop; the robot thinks and talks on.
+    Freeze(#[serde(with = "robot_text")] RobotId),
+    /// The robot receives nothing.
+    Deaf(#[serde(with = "robot_text")] RobotId),
+    /// Nothing that the robot sends leaves it.
+    Mute(#[serde(with = "robot_text")] RobotId),
+    /// Ends a crash, a freeze, deafness and muteness.
+    Revive {
+        #[serde(with = "robot_text")]
+        robot: RobotId,
+        memory: Recall,
+    },
+    /// The robot is out of radio range of all others.
+    CutOff(#[serde(with = "robot_text")] RobotId),
+    Reconnect(#[serde(with = "robot_text")] RobotId),
+    /// No message crosses between the two groups.
+    Partition(
+        #[serde(with = "robot_text::list")] Vec<RobotId>,
+        #[serde(with = "robot_text::list")] Vec<RobotId>,
+    ),
+    /// Ends all partitions.
+    Heal,
+    /// Whether the whole band is jammed.
+    Jam(bool),
+    /// The radio from now on, by its file's name.
+    Radio(String),
+    Ball {
+        at: Vec2,
+        /// m/s
+        #[serde(default)]
+        velocity: Vec2,
+    },
+    /// Adds to the robot's velocity, m/s.
+    Push {
+        #[serde(with = "robot_text")]
+        robot: RobotId,
+        by: Vec2,
+    },
+    /// Puts the robot elsewhere without telling it.
+    Kidnap {
+        #[serde(with = "robot_text")]
+        robot: RobotId,
+        to: Vec2,
+        /// Degrees, counter-clockwise from east.
+        facing: f32,
+    },
+    /// Makes the robot start a role swap: who holds the first role of a pair takes the second.
+    InitiateSwap {
+        #[serde(with = "robot_text")]
+        robot: RobotId,
+        roles: Vec<(String, String)>,
+    },
+}
+
+/// A piece of teamwork that a scenario may be about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum Dependency {
+    Messages,
+    TeammateAvoidance,
+    HierarchicalAvoidance,
+    Claims,
+    HomebaseSelection,
+    GoalieSupport,
+    OffensiveSupport,
+    FloaterDropsBack,
+    RoleSwap,
+    /// That roles are swapped by the hardened protocol and not by the paper's.
+    HardenedSwap,
+}
+
+impl Dependency {
+    /// What to switch off in a strategy; `None` for a protocol, which is exchanged instead.
+    pub fn mechanism(self) -> Option<Mechanism> {
+        Some(match self {
+            Dependency::Messages => Mechanism::Messages,
+            Dependency::TeammateAvoidance => Mechanism::TeammateAvoidance,
+            Dependency::HierarchicalAvoidance => Mechanism::HierarchicalAvoidance,
+            Dependency::Claims => Mechanism::Claims,
+            Dependency::HomebaseSelection => Mechanism::HomebaseSelection,
+            Dependency::GoalieSupport => Mechanism::GoalieSupport,
+            Dependency::OffensiveSupport => Mechanism::OffensiveSupport,
+            Dependency::FloaterDropsBack => Mechanism::FloaterDropsBack,
+            Dependency::RoleSwap => Mechanism::RoleSwap,
+            Dependency::HardenedSwap => return None,
+        })
+    }
+}

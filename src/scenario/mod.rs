@@ -1,0 +1,25 @@
+//! Scenarios: small scenes with a script and expectations, by which teamwork is tested.
+//!
+//! A file in `assets/scenarios` is parsed into a [`ScenarioFile`] and checked into a [`Scenario`]. While it is played, a
+//! [`Judge`] looks at the [`Scene`] of each tick; its [`Verdict`]s over all seeds make a [`Report`].
+
+mod check;
+mod condition;
+mod event;
+mod file;
+mod judge;
+mod report;
+mod robot_text;
+mod scene;
+#[cfg(test)]
+mod stage;
+mod watch;
+mod words;
+
+pub use check::{Known, KnownTeam, Player, Scenario, Side, check};
+pub use condition::{Area, Condition, Expectation, Packets, Thing};
+pub use event::{Dependency, Event, TimedEvent};
+pub use file::{BallFile, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
+pub use judge::{Failure, Judge, Verdict};
+pub use report::{Report, Run, junit};
+pub use scene::{MessageCounts, RobotScene, Scene};

@@ -1,0 +1,105 @@
+//! What people and scenarios ask of a running match.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use crate::geometry::Pose;
+use crate::ids::{RobotId, Team};
+use crate::pilot::Pilot;
+use crate::protocol::role_swap::Reassignment;
+use crate::radio::{FaultRule, Partition, Radio};
+use crate::robot::{Ailment, Recall};
+use crate::strategy::Strategy;
+
+/// Something that is to happen at the next tick.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// A person takes the robot over.
+    TakeOver(RobotId),
+    /// The robot's strategy takes it back.
+    HandBack(RobotId),
+    /// What the person at the controls does to the robot; see [`Pilot`]. Nothing, if nobody drives it.
+    Steer {
+        robot: RobotId,
+        pilot: Pilot,
+    },
+    /// The weight of a term of an assemblage, both by index.
+    SetWeight {
+        team: Team,
+        assemblage: usize,
+        term: usize,
+        weight: f32,
+    },
+    /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow).
+    ChangeStrategy {
+        team: Team,
+        strategy: Arc<Strategy>,
+    },
+    Robot(RobotId, Treatment),
+    Air(Weather),
+    Body(Shove),
+}
+
+/// What befalls a robot.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Treatment {
+    Afflict(Ailment),
+    /// All its ailments end; a robot that had crashed is switched on again.
+    Revive(Recall),
+    /// It decides that roles should be swapped.
+    Swap(Reassignment),
+}
+
+/// What befalls the radio.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Weather {
+    /// Another radio from now on.
+    Change(Radio),
+    ExtraLoss(f32),
+    /// s
+    ExtraDelay(f32),
+    Jam(bool),
+    /// The robot hears nobody and is heard by nobody.
+    CutOff(RobotId),
+    Reconnect(RobotId),
+    Part(Partition),
+    /// Ends all partitions.
+    Heal,
+    /// One more fault rule.
+    Fault(FaultRule),
+}
+
+/// A hand on the pitch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shove {
+    /// Puts the ball somewhere, rolling, m and m/s in the pitch frame.
+    Ball { at: Vec2, velocity: Vec2 },
+    /// Adds to a robot's velocity, m/s in the pitch frame.
+    Push { robot: RobotId, by: Vec2 },
+    /// Carries a robot off without telling it, to a pose in the pitch frame.
+    Kidnap { robot: RobotId, to: Pose },
+}
+
+/// Requests that wait for the next tick.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Requests(Vec<Request>);
+
+impl Requests {
+    pub fn ask(&mut self, request: Request) {
+        self.0.push(request);
+    }
+
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// In the order in which they were made.
+    pub fn iter(&self) -> impl Iterator<Item = &Request> + '_ {
+        self.0.iter()
+    }
+}

@@ -1,0 +1,95 @@
+//! Requests that make robots ill or well.
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+
+use super::requests::{Request, Requests, Treatment};
+use crate::behaviour::Activity;
+use crate::clock::Clock;
+use crate::ids::RobotId;
+use crate::motor::SteeringIntent;
+use crate::perception::Memory;
+use crate::radio::Outbox;
+use crate::robot::{Ailment, Condition, Recall, Robot};
+use crate::sense::{Eyesight, Percepts};
+use crate::strategy::{Strategies, Strategy};
+use crate::teamwork::{Role, Swapping, TeamPicture};
+use crate::world_model::WorldModel;
+
+/// Everything of a robot that a restart resets.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(super) struct Patient {
+    id: &'static RobotId,
+    robot: &'static mut Robot,
+    role: &'static mut Role,
+    swapping: Option<&'static mut Swapping>,
+    picture: &'static mut TeamPicture,
+    activity: &'static mut Activity,
+    memory: &'static mut Memory,
+    model: &'static mut WorldModel,
+    eyesight: &'static mut Eyesight,
+    percepts: &'static mut Percepts,
+    intent: &'static mut SteeringIntent,
+    outbox: &'static mut Outbox,
+}
+
+pub(super) fn treat_robots(
+    clock: Res<Clock>,
+    requests: Res<Requests>,
+    strategies: Res<Strategies>,
+    mut robots: Query<Patient>,
+) {
+    for request in requests.iter() {
+        let Request::Robot(robot, treatment) = request else { continue };
+        let Some(mut robot) = robots.iter_mut().find(|patient| patient.id == robot) else { continue };
+        match treatment {
+            Treatment::Afflict(ailment) => robot.afflict(*ailment),
+            Treatment::Revive(recall) => {
+                let was_off = robot.robot.condition.crashed;
+                robot.robot.condition = Condition::default();
+                if was_off {
+                    let strategy = strategies.of(robot.id.team);
+                    robot.switch_on(*recall, strategy, clock.tick);
+                }
+            }
+            Treatment::Swap(reassignment) => {
+                if let Some(swapping) = &mut robot.swapping {
+                    swapping.asked = Some(reassignment.clone());
+                }
+            }
+        }
+    }
+}
+
+impl PatientItem<'_, '_> {
+    fn afflict(&mut self, ailment: Ailment) {
+        self.robot.condition = self.robot.condition.with(ailment);
+        if self.robot.condition.crashed {
+            *self.intent = SteeringIntent::Stop;
+            self.outbox.clear();
+        }
+    }
+
+    /// What the robot was in the middle of is gone in any case.
+    fn switch_on(&mut self, recall: Recall, strategy: &Strategy, tick: u64) {
+        let at_kick_off = strategy.players.get(usize::from(self.id.number)).copied();
+        match (&mut self.swapping, recall) {
+            (Some(swapping), _) => {
+                swapping.restart(recall);
+                self.role.0 = usize::from(swapping.machine.role());
+            }
+            (None, Recall::Lost) => self.role.0 = at_kick_off.unwrap_or(self.role.0),
+            (None, Recall::Kept) => {}
+        }
+        let known = std::mem::replace(&mut *self.picture, TeamPicture::new(strategy));
+        if recall == Recall::Kept {
+            self.picture.roles = known.roles;
+        }
+        *self.activity = Activity::new(strategy, self.role.0, tick);
+        *self.memory = Memory::new(strategy.slots);
+        *self.model = WorldModel::default();
+        *self.percepts = Percepts::default();
+        self.eyesight.blink();
+    }
+}

@@ -1,0 +1,90 @@
+//! The `teamwork` section: roles looked up, numbers checked.
+
+use super::{Resolver, Result};
+use crate::data::Field;
+use crate::protocol::role_swap::RoleIndex;
+use crate::strategy::teamwork::{CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, Timers};
+use crate::teamwork::policy::Cast;
+
+impl Resolver<'_> {
+    pub(super) fn teamwork(&self, at: &Field) -> Result<Teamwork> {
+        let file = &self.file.teamwork;
+        let at_hierarchy = at.key("hierarchy");
+        let mut ranks = vec![file.hierarchy.len(); self.file.roles.len()];
+        for (rank, name) in file.hierarchy.iter().enumerate() {
+            ranks[usize::from(self.role_index(name, &at_hierarchy.index(rank))?)] = rank;
+        }
+        let goalie =
+            (file.goalie.as_ref()).map(|name| self.role_index(name, &at.key("goalie"))).transpose()?;
+        self.talk(&file.talk, &at.key("talk"))?;
+        let role_swap = match &file.role_swap {
+            Some(swap) => Some(self.role_swap(swap, &at.key("role_swap"))?),
+            None => None,
+        };
+        Ok(Teamwork {
+            mechanisms: (file.mechanisms.as_ref())
+                .map_or_else(Mechanisms::default, |on| on.iter().copied().collect()),
+            teammates_by: file.teammates_by,
+            ranks,
+            goalie,
+            talk: file.talk,
+            role_swap,
+        })
+    }
+
+    /// The place of a role, by its name.
+    pub(super) fn role_index(&self, name: &str, at: &Field) -> Result<RoleIndex> {
+        let index = self.index(&self.file.roles, "role", name, at)?;
+        RoleIndex::try_from(index).or_else(|_| self.fault(at, "a strategy has 256 roles at most"))
+    }
+
+    fn talk(&self, talk: &Talk, at: &Field) -> Result<()> {
+        self.positive(talk.position_every, &at.key("position_every"))?;
+        self.not_negative(talk.position_memory, &at.key("position_memory"))?;
+        self.positive(talk.claim_every, &at.key("claim_every"))?;
+        self.not_negative(talk.claim_memory, &at.key("claim_memory"))?;
+        self.not_negative(talk.claim_radius, &at.key("claim_radius"))
+    }
+
+    fn role_swap(&self, file: &RoleSwapFile, at: &Field) -> Result<RoleSwapSpec> {
+        if let Some((field, message)) = file.policy.fault() {
+            let at = field.split('.').fold(at.key("policy"), |at, key| at.key(key));
+            return self.fault(&at, message);
+        }
+        self.timers(&file.timers, &at.key("timers"))?;
+        Ok(RoleSwapSpec {
+            protocol: file.protocol,
+            policy: file.policy.clone(),
+            cast: self.cast(&file.cast, &at.key("cast"))?,
+            timers: file.timers,
+        })
+    }
+
+    fn cast(&self, cast: &CastFile, at: &Field) -> Result<Cast> {
+        let halfback = self.role_index(&cast.halfback.name, &at.key("halfback"))?;
+        let floater = self.role_index(&cast.floater.name, &at.key("floater"))?;
+        let forward = self.role_index(&cast.forward.name, &at.key("forward"))?;
+        if halfback == floater || floater == forward || forward == halfback {
+            return self.fault(at, "needs three different roles");
+        }
+        Ok(Cast { halfback, floater, forward })
+    }
+
+    fn timers(&self, timers: &Timers, at: &Field) -> Result<()> {
+        self.positive(timers.lock, &at.key("lock"))?;
+        self.positive(timers.locks, &at.key("locks"))?;
+        self.positive(timers.acks, &at.key("acks"))?;
+        let (least, most) = timers.back_off;
+        if !(least.is_finite() && most.is_finite() && 0.0 <= least && least <= most) {
+            return self.fault(&at.key("back_off"), "needs two times, the lesser one first");
+        }
+        Ok(())
+    }
+
+    fn positive(&self, value: f32, at: &Field) -> Result<()> {
+        if value.is_finite() && value > 0.0 {
+            return Ok(());
+        }
+        self.fault(at, format!("must be a number above 0, not {value}"))
+    }
+}

@@ -1,0 +1,235 @@
+//! The `teamwork` section of a strategy: which mechanisms are on, who ranks above whom, how often a robot says what, and how
+//! roles are swapped.
+
+use serde::{Deserialize, Serialize};
+
+use super::language::RoleRef;
+use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
+use crate::teamwork::policy::{Cast, Policy};
+
+/// A mechanism of collaboration or coordination, each of which can be switched off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum Mechanism {
+    /// Robots tell each other position, claim and goalie news (figure 3). Without it nothing goes on air but role swaps.
+    Messages,
+    /// Team mates are avoided at all (section V-A).
+    TeammateAvoidance,
+    /// Only those who rank above are avoided where it matters; without it everyone avoids everyone (section VI-A).
+    HierarchicalAvoidance,
+    /// A robot that acquires the ball claims it (section VI-B).
+    Claims,
+    /// Homebases depend on where the team mates are; without it they are the nearest (section V-B).
+    HomebaseSelection,
+    /// The halfback stands in for a goalie that is out (figure 4).
+    GoalieSupport,
+    /// A team mate follows the robot with the ball (figure 6).
+    OffensiveSupport,
+    /// The floater defends while the halfback is away with the ball (section VI-D).
+    FloaterDropsBack,
+    /// Roles are swapped (section VII).
+    RoleSwap,
+}
+
+impl Mechanism {
+    pub const ALL: [Mechanism; 9] = [
+        Mechanism::Messages,
+        Mechanism::TeammateAvoidance,
+        Mechanism::HierarchicalAvoidance,
+        Mechanism::Claims,
+        Mechanism::HomebaseSelection,
+        Mechanism::GoalieSupport,
+        Mechanism::OffensiveSupport,
+        Mechanism::FloaterDropsBack,
+        Mechanism::RoleSwap,
+    ];
+
+    fn bit(self) -> u16 {
+        1 << self as u16
+    }
+}
+
+/// The mechanisms that are on. By default robots avoid the team mates that they see, and that is all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mechanisms(u16);
+
+impl Default for Mechanisms {
+    fn default() -> Mechanisms {
+        Mechanisms::from_iter([Mechanism::TeammateAvoidance])
+    }
+}
+
+impl Mechanisms {
+    pub fn has(self, mechanism: Mechanism) -> bool {
+        self.0 & mechanism.bit() != 0
+    }
+
+    pub fn without(self, mechanism: Mechanism) -> Mechanisms {
+        Mechanisms(self.0 & !mechanism.bit())
+    }
+}
+
+impl FromIterator<Mechanism> for Mechanisms {
+    fn from_iter<I: IntoIterator<Item = Mechanism>>(mechanisms: I) -> Mechanisms {
+        Mechanisms(mechanisms.into_iter().fold(0, |all, mechanism| all | mechanism.bit()))
+    }
+}
+
+/// Whom a robot takes for its team mates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TeammatesBy {
+    /// Those whose markers it sees.
+    #[default]
+    Sight,
+    /// Those whose position messages it hears (section V-A).
+    Messages,
+    /// Those whose position messages it hears, and others that it sees (section VIII).
+    MessagesAndSight,
+}
+
+/// The section as it is written; left out, robots neither talk nor arrange anything.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TeamworkFile {
+    /// Those that are on; the [default](Mechanisms::default), if left out.
+    pub mechanisms: Option<Vec<Mechanism>>,
+    pub teammates_by: TeammatesBy,
+    /// Roles by rank, the highest first; those that are missing rank lowest, all alike.
+    pub hierarchy: Vec<String>,
+    /// The role that sends goalie messages.
+    pub goalie: Option<String>,
+    pub talk: Talk,
+    pub role_swap: Option<RoleSwapFile>,
+}
+
+/// When robots talk and how long they believe what they heard, all in seconds, and how near to the ball it can be claimed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Talk {
+    /// Between two position messages.
+    pub position_every: f32,
+    /// For how long a position is believed.
+    pub position_memory: f32,
+    /// Between two have-ball messages of a robot that keeps the ball.
+    pub claim_every: f32,
+    /// For how long a claim is believed that was neither renewed nor given up.
+    pub claim_memory: f32,
+    /// A robot claims a ball that is nearer than this, m.
+    pub claim_radius: f32,
+}
+
+impl Default for Talk {
+    fn default() -> Talk {
+        Talk {
+            position_every: 0.2,
+            position_memory: 1.5,
+            claim_every: 0.4,
+            claim_memory: 1.2,
+            claim_radius: 1.0,
+        }
+    }
+}
+
+/// How roles are swapped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoleSwapFile {
+    pub protocol: Protocol,
+    pub policy: Policy,
+    pub cast: CastFile,
+    #[serde(default)]
+    pub timers: Timers,
+}
+
+/// The version of the protocol.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Protocol {
+    /// As in section VII of the paper.
+    Paper(PaperRules),
+    /// With ordered configurations that ride on position messages.
+    Hardened,
+    /// The hardened version with an ingredient left out, to see what it is for.
+    HardenedWithout(Ingredient),
+}
+
+/// The roles that are swapped.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CastFile {
+    pub halfback: RoleRef,
+    pub floater: RoleRef,
+    pub forward: RoleRef,
+}
+
+/// How long a robot waits at each step of a swap, s.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Timers {
+    /// A locked robot for the next message of its initiator. Longer than the other two and two messages' delays.
+    pub lock: f32,
+    /// An initiator for the locks.
+    pub locks: f32,
+    /// An initiator for the acknowledgements of its reassignments.
+    pub acks: f32,
+    /// Least and greatest wait after an attempt that failed.
+    pub back_off: (f32, f32),
+}
+
+impl Default for Timers {
+    fn default() -> Timers {
+        Timers { lock: 1.5, locks: 0.5, acks: 0.5, back_off: (0.5, 1.5) }
+    }
+}
+
+/// The section as it runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Teamwork {
+    pub mechanisms: Mechanisms,
+    pub teammates_by: TeammatesBy,
+    /// The rank of each role, 0 highest.
+    pub ranks: Vec<usize>,
+    pub goalie: Option<RoleIndex>,
+    pub talk: Talk,
+    pub role_swap: Option<RoleSwapSpec>,
+}
+
+/// How roles are swapped, with every name looked up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoleSwapSpec {
+    pub protocol: Protocol,
+    pub policy: Policy,
+    pub cast: Cast,
+    pub timers: Timers,
+}
+
+impl Teamwork {
+    /// Whether a role ranks above another. Where there is no hierarchy, none does.
+    pub fn outranks(&self, role: usize, other: usize) -> bool {
+        let rank = |role: usize| self.ranks.get(role).copied().unwrap_or(usize::MAX);
+        rank(role) < rank(other)
+    }
+
+    pub fn has(&self, mechanism: Mechanism) -> bool {
+        self.mechanisms.has(mechanism)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mechanisms_are_switched_one_by_one() {
+        let all: Mechanisms = Mechanism::ALL.into_iter().collect();
+        for off in Mechanism::ALL {
+            let rest = all.without(off);
+            assert!(Mechanism::ALL.into_iter().all(|mechanism| rest.has(mechanism) == (mechanism != off)));
+        }
+    }
+
+    #[test]
+    fn ranks_decide_who_outranks_whom() {
+        let teamwork = Teamwork { ranks: vec![1, 0, 2, 2], ..Teamwork::default() };
+        assert!(teamwork.outranks(1, 0) && teamwork.outranks(0, 2));
+        assert!(!teamwork.outranks(2, 3) && !teamwork.outranks(3, 2) && !teamwork.outranks(0, 0));
+    }
+}
