@@ -41,11 +41,13 @@ impl fmt::Display for Team {
 
 /// A robot's team and its number on the shirt, counted from 0 as in the Hammerheads' messages (figure 3).
 ///
-/// The derived order, home before away and then by number, is the order of every loop over robots.
+/// The derived order, home before away and then by number, is the order of every loop over robots. In files it is written
+/// as people write it: `"home 2"`.
 #[derive(
     Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, Reflect,
 )]
 #[component(immutable)]
+#[serde(try_from = "String", into = "String")]
 pub struct RobotId {
     pub team: Team,
     pub number: u8,
@@ -79,6 +81,20 @@ impl std::str::FromStr for RobotId {
         };
         let number = rest.trim_start_matches([' ', ':', '-']).parse().map_err(|_| expected())?;
         Ok(RobotId { team, number })
+    }
+}
+
+impl TryFrom<String> for RobotId {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<RobotId, String> {
+        text.parse()
+    }
+}
+
+impl From<RobotId> for String {
+    fn from(id: RobotId) -> String {
+        id.to_string()
     }
 }
 

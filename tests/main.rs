@@ -3,6 +3,7 @@
 mod command_line;
 mod play;
 mod repeatability;
+mod role_swap;
 mod rolling_bodies;
 mod schedule;
 mod strategies;

@@ -2,20 +2,24 @@
 
 mod carry;
 mod plan;
+mod situation;
 mod spawn;
 
 use bevy::prelude::*;
+pub(crate) use plan::checked;
 pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
+
+pub use situation::{Placed, Situation};
 
 use crate::clock::Clock;
 use crate::ids::Team;
 use crate::physics::open_world;
-use crate::radio::{Channel, Conditions, FaultRules, RadioLog, Traffic};
+use crate::radio::{Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
 use crate::record::Record;
 use crate::referee::{Calls, MatchState, Phase, Whistles};
 use crate::rng::Seed;
 use crate::schedule::Tick;
-use crate::script::Requests;
+use crate::script::{Requests, Script};
 use crate::strategy::Strategies;
 use spawn::{spawn_ball, spawn_planned};
 
@@ -40,15 +44,20 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(seed);
     world.insert_resource(plan.pitch.clone());
     world.insert_resource(plan.rules.clone());
-    world.insert_resource(MatchState::new(Team::Home, &plan.rules));
+    world.insert_resource(match &plan.situation {
+        Some(situation) => MatchState::in_play(Team::Home, &plan.rules, situation.refereed),
+        None => MatchState::new(Team::Home, &plan.rules),
+    });
     world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
     world.insert_resource(Whistles::default());
     world.insert_resource(Calls::default());
     world.insert_resource(Record::new(seed, plan.robots()));
     world.insert_resource(Requests::default());
+    world.insert_resource(Script::new(&plan.script));
     world.insert_resource(Channel::new(seed, plan.radio.clone()));
     world.insert_resource(Conditions::default());
-    world.insert_resource(FaultRules::default());
+    world.insert_resource(FaultRules::new(plan.faults.iter().cloned()));
+    world.insert_resource(MessageCounts::default());
     world.insert_resource(Traffic::default());
     world.insert_resource(RadioLog::default());
     open_world(world, &plan.pitch, MatchEntity);

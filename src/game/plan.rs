@@ -6,13 +6,15 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::situation::Situation;
 use crate::ball::BallKind;
 use crate::data::{AssetFolder, DataError, Field, Source, no_such};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
-use crate::radio::Radio;
+use crate::radio::{FaultRule, Radio};
 use crate::referee::RuleBook;
 use crate::robot::RobotKind;
+use crate::script::Request;
 use crate::sense::Sensing;
 use crate::strategy::Strategy;
 
@@ -70,6 +72,12 @@ pub struct MatchPlan {
     pub teams: [TeamPlan; 2],
     pub seed: u64,
     pub pilot: Option<RobotId>,
+    /// Where the match begins, if not at a kick-off; then only the robots of the situation take part.
+    pub situation: Option<Situation>,
+    /// Rules by which the radio fails.
+    pub faults: Vec<FaultRule>,
+    /// What happens when, by tick.
+    pub script: Vec<(u64, Request)>,
 }
 
 /// One side of a match.
@@ -122,6 +130,9 @@ impl MatchPlan {
             teams,
             seed: choice.seed,
             pilot: choice.pilot,
+            situation: None,
+            faults: Vec::new(),
+            script: Vec::new(),
         };
         plan.check_pilot()?;
         Ok(plan)
@@ -133,10 +144,13 @@ impl MatchPlan {
 
     /// All robots of the match, in order.
     pub fn robots(&self) -> impl Iterator<Item = RobotId> + '_ {
-        Team::BOTH.into_iter().flat_map(|team| {
-            let players = self.team(team).strategy.players.len();
-            (0..players).map(move |number| RobotId::new(team, number as u8))
-        })
+        Team::BOTH
+            .into_iter()
+            .flat_map(|team| {
+                let players = self.team(team).strategy.players.len();
+                (0..players).map(move |number| RobotId::new(team, number as u8))
+            })
+            .filter(|id| self.situation.as_ref().is_none_or(|situation| situation.robots.contains_key(id)))
     }
 
     fn check_pilot(&self) -> Result<(), DataError> {
@@ -151,7 +165,7 @@ impl MatchPlan {
 }
 
 impl TeamPlan {
-    fn read(assets: &AssetFolder, file: &TeamFile) -> Result<TeamPlan, DataError> {
+    pub(crate) fn read(assets: &AssetFolder, file: &TeamFile) -> Result<TeamPlan, DataError> {
         let path = assets.file("strategies", &file.strategy);
         let source = Source::read(&path)?;
         let strategy = Strategy::parse(&source)?;
@@ -169,7 +183,7 @@ impl TeamPlan {
 }
 
 /// Reads a file whose type checks its own numbers.
-fn checked<T: DeserializeOwned>(
+pub(crate) fn checked<T: DeserializeOwned>(
     path: &Path,
     fault: impl Fn(&T) -> Option<(&'static str, String)>,
 ) -> Result<T, DataError> {
@@ -182,6 +196,6 @@ fn checked<T: DeserializeOwned>(
 }
 
 /// `a.b` as a field.
-fn dotted(path: &str) -> Field {
+pub(crate) fn dotted(path: &str) -> Field {
     path.split('.').fold(Field::root(), |field, key| field.key(key))
 }

@@ -17,6 +17,7 @@ use crate::perception::Memory;
 use crate::physics::register_bodies;
 use crate::pilot::Pilot;
 use crate::radio::{Inbox, Outbox};
+use crate::referee::MatchState;
 use crate::rng::Seed;
 use crate::robot::{Robot, RobotBodies, RobotKind, Trailer, WheelCommand, jaws};
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
@@ -24,26 +25,31 @@ use crate::strategy::Strategy;
 use crate::teamwork::{Role, Swapping, TeamPicture};
 use crate::world_model::WorldModel;
 
-/// Spawns the ball on the centre spot.
+/// Spawns the ball where the match begins.
 pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
     let kind = plan.ball;
+    let (place, velocity) =
+        (plan.situation.as_ref()).map_or_else(Default::default, |start| (start.ball, start.velocity));
+    let pose = Pose { position: place, heading: 0.0 };
     world.spawn((
         Name::new("ball"),
         MatchEntity,
         Ball { kind },
         BallDice::new(seed),
-        Rolling::default(),
-        Pose::default(),
-        Twist::default(),
-        rigid_body(Collider::ball(kind.radius), kind.mass, kind.friction, kind.restitution, Vec2::ZERO),
+        Rolling(velocity),
+        pose,
+        Twist { linear: velocity, angular: 0.0 },
+        Velocity::linear(velocity),
+        rigid_body(Collider::ball(kind.radius), kind.mass, kind.friction, kind.restitution, pose),
         Ccd::enabled(),
     ));
     register_bodies(world);
 }
 
-/// Spawns one robot of a plan beside the pitch, where it waits for the referee.
+/// Spawns one robot of a plan where the match begins, or beside the pitch, where it waits for the referee.
 pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, seed: Seed, clock: &Clock) {
     let team = plan.team(id.team);
+    let start = plan.situation.as_ref().and_then(|situation| situation.robots.get(&id));
     let entry = Entry {
         id,
         role: team.strategy.players[usize::from(id.number)],
@@ -51,7 +57,9 @@ pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, se
         sensing: team.sensing.clone(),
         strategy: &team.strategy,
         seed,
-        place: beside_the_pitch(&plan.pitch, id).position,
+        pose: start.map_or_else(|| beside_the_pitch(&plan.pitch, id), |start| start.pose),
+        told: start.is_some(),
+        on: start.is_none_or(|start| start.on),
     };
     let (unit, trailer) = spawn_robot(world, &entry, clock);
     let handle = |entity: Entity| world.get::<RapierRigidBodyHandle>(entity).copied();
@@ -76,21 +84,29 @@ struct Entry<'a> {
     sensing: Arc<Sensing>,
     strategy: &'a Strategy,
     seed: Seed,
-    /// m, in the pitch frame.
-    place: Vec2,
+    /// In the pitch frame.
+    pose: Pose,
+    /// Whether it has been told where it is.
+    told: bool,
+    on: bool,
 }
 
 /// Spawns a robot and its trailer; returns both.
 fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Option<Entity>) {
     let kind = &entry.kind;
+    let mut robot = Robot::new(kind.clone(), clock);
+    robot.condition.crashed = !entry.on;
+    let attacking = MatchState::attacking_at_start(entry.id.team);
+    let model =
+        if entry.told { WorldModel::told(attacking.turn_pose(entry.pose)) } else { WorldModel::default() };
     let unit = world
         .spawn((
             (
                 Name::new(format!("robot {}", entry.id)),
                 MatchEntity,
                 entry.id,
-                Robot::new(kind.clone(), clock),
-                Pose::default(),
+                robot,
+                entry.pose,
                 Twist::default(),
                 WheelCommand::default(),
                 SteeringIntent::default(),
@@ -104,7 +120,7 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
                 Outbox::default(),
                 Activity::new(entry.strategy, entry.role, 0),
                 Memory::new(entry.strategy.slots),
-                WorldModel::default(),
+                model,
                 Percepts::default(),
                 Eyesight::new(entry.sensing.clone(), entry.seed, entry.id),
                 Odometry::new(entry.seed, entry.id),
@@ -114,7 +130,7 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
                 kind.body.mass,
                 kind.body.friction,
                 kind.body.restitution,
-                entry.place,
+                entry.pose,
             ),
         ))
         .id();
@@ -130,9 +146,9 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
             Name::new(format!("trailer {}", entry.id)),
             MatchEntity,
             Trailer { of: entry.id, middle, radius },
-            Pose::default(),
+            entry.pose,
             Twist::default(),
-            rigid_body(outline, trailer.mass, trailer.friction, trailer.restitution, entry.place),
+            rigid_body(outline, trailer.mass, trailer.friction, trailer.restitution, entry.pose),
             joint,
         ));
         Some(spawned.id())
@@ -151,10 +167,11 @@ fn unit_collider(kind: &RobotKind) -> Collider {
     if parts.len() == 1 { Collider::cuboid(half.x, half.y) } else { Collider::compound(parts) }
 }
 
-fn rigid_body(collider: Collider, mass: f32, friction: f32, restitution: f32, place: Vec2) -> impl Bundle {
+fn rigid_body(collider: Collider, mass: f32, friction: f32, restitution: f32, pose: Pose) -> impl Bundle {
     (
         RigidBody::Dynamic,
-        Transform::from_translation(place.extend(0.0)),
+        Transform::from_translation(pose.position.extend(0.0))
+            .with_rotation(Quat::from_rotation_z(pose.heading)),
         collider,
         ColliderMassProperties::Mass(mass),
         Friction { coefficient: friction, combine_rule: CoefficientCombineRule::Min },

@@ -209,6 +209,7 @@ impl Perception<'_> {
                 local.x > 0.0 && free <= *gap && local.y.abs() <= *aside
             }),
             Feature::On(mechanism) => self.teamwork.has(*mechanism),
+            Feature::InRole(role) => usize::from(role.index) == self.role,
             Feature::HasBall => self.picture.has_ball,
             Feature::TeammateHasBall(roles) => self
                 .picture

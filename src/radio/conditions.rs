@@ -6,7 +6,6 @@ use std::fmt;
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
-use super::faults::id_text;
 use crate::ids::RobotId;
 
 /// The present interference. The default is none.
@@ -20,7 +19,6 @@ pub struct Conditions {
     /// Everything is lost.
     pub jammed: bool,
     /// Robots that hear nobody and are heard by nobody.
-    #[serde(with = "id_text::set")]
     pub cut_off: BTreeSet<RobotId>,
     pub partitions: Vec<Partition>,
 }
@@ -31,9 +29,7 @@ pub struct Conditions {
 pub struct Partition {
     /// What parts them, for people to read.
     pub reason: String,
-    #[serde(with = "id_text::set")]
     pub one: BTreeSet<RobotId>,
-    #[serde(with = "id_text::set")]
     pub other: BTreeSet<RobotId>,
 }
 

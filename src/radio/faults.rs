@@ -19,9 +19,9 @@ use crate::messages::MessageKind;
 pub struct FaultRule {
     #[serde(default)]
     pub kind: Option<MessageKind>,
-    #[serde(default, with = "id_text::option")]
+    #[serde(default)]
     pub from: Option<RobotId>,
-    #[serde(default, with = "id_text::option")]
+    #[serde(default)]
     pub to: Option<RobotId>,
     /// From the first time until just before the second, which may be `inf`. Packets at other times are not counted.
     #[serde(default)]
@@ -148,65 +148,6 @@ impl FaultRules {
             }
         }
         acts
-    }
-}
-
-/// Robots in data as people write them: `"home 2"`. For `#[serde(with = "id_text")]`.
-pub mod id_text {
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    use crate::ids::RobotId;
-
-    pub fn serialize<S: Serializer>(id: &RobotId, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_str(id)
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<RobotId, D::Error> {
-        String::deserialize(from)?.parse().map_err(D::Error::custom)
-    }
-
-    /// One robot as text.
-    struct Text(RobotId);
-
-    impl Serialize for Text {
-        fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-            serialize(&self.0, to)
-        }
-    }
-
-    impl<'de> Deserialize<'de> for Text {
-        fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Text, D::Error> {
-            deserialize(from).map(Text)
-        }
-    }
-
-    /// For `Option<RobotId>`; give the field a `default` as well.
-    pub mod option {
-        use super::*;
-
-        pub fn serialize<S: Serializer>(id: &Option<RobotId>, to: S) -> Result<S::Ok, S::Error> {
-            id.map(Text).serialize(to)
-        }
-
-        pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<RobotId>, D::Error> {
-            Ok(Option::<Text>::deserialize(from)?.map(|text| text.0))
-        }
-    }
-
-    /// For `BTreeSet<RobotId>`.
-    pub mod set {
-        use std::collections::BTreeSet;
-
-        use super::*;
-
-        pub fn serialize<S: Serializer>(ids: &BTreeSet<RobotId>, to: S) -> Result<S::Ok, S::Error> {
-            to.collect_seq(ids.iter().map(|id| Text(*id)))
-        }
-
-        pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<BTreeSet<RobotId>, D::Error> {
-            Ok(Vec::<Text>::deserialize(from)?.into_iter().map(|text| text.0).collect())
-        }
     }
 }
 

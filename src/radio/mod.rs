@@ -4,6 +4,7 @@
 mod channel;
 mod conditions;
 mod counters;
+mod counts;
 mod faults;
 mod log;
 mod preset;
@@ -17,6 +18,7 @@ use smallvec::SmallVec;
 pub use channel::{Channel, Fate, Loss, Packet};
 pub use conditions::{Conditions, Partition};
 pub use counters::{LinkCounters, Traffic};
+pub use counts::MessageCounts;
 pub use faults::{FaultRule, FaultRules};
 pub use log::{Outcome, RadioLog, Transmission};
 pub use preset::Radio;
@@ -106,6 +108,7 @@ pub struct Air<'w> {
     conditions: Res<'w, Conditions>,
     faults: ResMut<'w, FaultRules>,
     traffic: ResMut<'w, Traffic>,
+    counts: ResMut<'w, MessageCounts>,
     log: ResMut<'w, RadioLog>,
 }
 
@@ -121,6 +124,7 @@ impl Air<'_> {
     ) {
         let fate = self.channel.send(packet, &self.conditions, &mut self.faults, clock);
         self.traffic.send(packet, &fate);
+        self.counts.count_sent(packet.kind, packet.from, packet.to);
         let id = self.log.sent(packet, message.sequence(), &fate, clock.tick);
         for copy in &fate.copies {
             commands.spawn((
@@ -149,7 +153,7 @@ impl Air<'_> {
 fn deliver_messages(
     clock: Res<Clock>,
     mut commands: Commands,
-    (mut traffic, mut log): (ResMut<Traffic>, ResMut<RadioLog>),
+    (mut traffic, mut counts, mut log): (ResMut<Traffic>, ResMut<MessageCounts>, ResMut<RadioLog>),
     in_flight: Query<(Entity, &Envelope, &Payload)>,
     mut robots: Query<(&RobotId, &Robot, &mut Inbox)>,
 ) {
@@ -171,6 +175,7 @@ fn deliver_messages(
             continue;
         };
         traffic.deliver(envelope.from, envelope.to);
+        counts.count_delivered(envelope.kind, envelope.from, envelope.to);
         log.arrived(envelope.id, clock.tick);
         if let Ok(message) = Message::decode(&payload.0) {
             inbox.0.push(Received { from: envelope.from.number, message });

@@ -51,13 +51,16 @@ pub(crate) fn judge(
     ball: Single<(&Ball, &Pose)>,
     robots: Query<(&RobotId, &Pose), Without<OffPitch>>,
 ) {
+    calls.0.clear();
+    if !state.refereed {
+        return;
+    }
     let (ball, ball_pose) = *ball;
     let mut seen: SmallVec<[(RobotId, Vec2); 8]> =
         robots.iter().map(|(id, pose)| (*id, pose.position)).collect();
     seen.sort_unstable_by_key(|(id, _)| *id);
     let laws = Laws { pitch: &pitch, book: &book, ball_radius: ball.kind.radius };
     let observation = Observation { ball: ball_pose.position, robots: &seen };
-    calls.0.clear();
     referee(&laws, &observation, f64::from(clock.dt), &mut state, &mut calls.0);
     for call in &calls.0 {
         if whistles.heard.len() == HEARD {

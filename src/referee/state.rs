@@ -62,6 +62,8 @@ pub struct MatchState {
     pub home_attacks: Attacking,
     /// The robots off the field, sorted by id.
     pub removed: Vec<Removal>,
+    /// Whether the rules hold; without them the ball stays in play whatever happens.
+    pub refereed: bool,
 
     /// Who kicked off the first half.
     pub(super) opened: Team,
@@ -102,12 +104,26 @@ impl MatchState {
             kick_off,
             home_attacks: Attacking::East,
             removed: Vec::new(),
+            refereed: true,
             opened: kick_off,
             waited: 0.0,
             played: 0.0,
             seen_ball: None,
             anchor: None,
             defenders: Vec::new(),
+        }
+    }
+
+    /// A match that begins with the ball in play.
+    pub fn in_play(kick_off: Team, book: &RuleBook, refereed: bool) -> MatchState {
+        MatchState { phase: Phase::Playing, refereed, ..MatchState::new(kick_off, book) }
+    }
+
+    /// Which way a team plays in the first half.
+    pub fn attacking_at_start(team: Team) -> Attacking {
+        match team {
+            Team::Home => Attacking::East,
+            Team::Away => Attacking::West,
         }
     }
 

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::robot_text;
 use crate::geometry::Zone;
 use crate::ids::{RobotId, Team};
 use crate::messages::MessageKind;
@@ -77,25 +76,23 @@ impl Expectation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Condition {
-    RoleOf(#[serde(with = "robot_text")] RobotId, String),
+    RoleOf(RobotId, String),
     /// The sub-role of a robot whose role acts as others by turns; the role itself for all others.
-    ActingAs(#[serde(with = "robot_text")] RobotId, String),
+    ActingAs(RobotId, String),
     /// The robot's state is one of these.
-    ActivityOf(#[serde(with = "robot_text")] RobotId, Vec<String>),
+    ActivityOf(RobotId, Vec<String>),
     /// The robot itself claims the ball.
-    Claims(#[serde(with = "robot_text")] RobotId),
+    Claims(RobotId),
     /// Every team mate that is switched on, or only the one named, believes that the robot holds the ball.
     Holder {
-        #[serde(with = "robot_text")]
         robot: RobotId,
-        #[serde(default, with = "robot_text::option")]
+        #[serde(default)]
         seen_by: Option<RobotId>,
     },
     /// The robot has given its lock for a role swap, to anybody or to the one named.
     Locked {
-        #[serde(with = "robot_text")]
         robot: RobotId,
-        #[serde(default, with = "robot_text::option")]
+        #[serde(default)]
         by: Option<RobotId>,
     },
     /// Metres between the centres of two things.
@@ -149,9 +146,9 @@ pub enum Condition {
 #[serde(deny_unknown_fields)]
 pub struct Packets {
     pub kind: MessageKind,
-    #[serde(default, with = "robot_text::option")]
+    #[serde(default)]
     pub from: Option<RobotId>,
-    #[serde(default, with = "robot_text::option")]
+    #[serde(default)]
     pub to: Option<RobotId>,
     #[serde(default = "one")]
     pub at_least: u64,
@@ -168,7 +165,7 @@ fn one() -> u64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Thing {
     Ball,
-    Robot(#[serde(with = "robot_text")] RobotId),
+    Robot(RobotId),
     /// A point in the pitch frame, m.
     At(f32, f32),
     /// The centre of the goal mouth that the team defends when it attacks as at the start.

@@ -3,7 +3,6 @@
 use bevy::prelude::Vec2;
 use serde::{Deserialize, Serialize};
 
-use super::robot_text;
 use crate::ids::RobotId;
 use crate::robot::Recall;
 use crate::strategy::teamwork::Mechanism;
@@ -22,27 +21,23 @@ pub struct TimedEvent {
 #[serde(deny_unknown_fields)]
 pub enum Event {
     /// The robot stops dead: it neither moves nor thinks nor talks.
-    Crash(#[serde(with = "robot_text")] RobotId),
+    Crash(RobotId),
     /// The wheels stop; the robot thinks and talks on.
-    Freeze(#[serde(with = "robot_text")] RobotId),
+    Freeze(RobotId),
     /// The robot receives nothing.
-    Deaf(#[serde(with = "robot_text")] RobotId),
+    Deaf(RobotId),
     /// Nothing that the robot sends leaves it.
-    Mute(#[serde(with = "robot_text")] RobotId),
+    Mute(RobotId),
     /// Ends a crash, a freeze, deafness and muteness.
     Revive {
-        #[serde(with = "robot_text")]
         robot: RobotId,
         memory: Recall,
     },
     /// The robot is out of radio range of all others.
-    CutOff(#[serde(with = "robot_text")] RobotId),
-    Reconnect(#[serde(with = "robot_text")] RobotId),
+    CutOff(RobotId),
+    Reconnect(RobotId),
     /// No message crosses between the two groups.
-    Partition(
-        #[serde(with = "robot_text::list")] Vec<RobotId>,
-        #[serde(with = "robot_text::list")] Vec<RobotId>,
-    ),
+    Partition(Vec<RobotId>, Vec<RobotId>),
     /// Ends all partitions.
     Heal,
     /// Whether the whole band is jammed.
@@ -57,13 +52,11 @@ pub enum Event {
     },
     /// Adds to the robot's velocity, m/s.
     Push {
-        #[serde(with = "robot_text")]
         robot: RobotId,
         by: Vec2,
     },
     /// Puts the robot elsewhere without telling it.
     Kidnap {
-        #[serde(with = "robot_text")]
         robot: RobotId,
         to: Vec2,
         /// Degrees, counter-clockwise from east.
@@ -71,7 +64,6 @@ pub enum Event {
     },
     /// Makes the robot start a role swap: who holds the first role of a pair takes the second.
     InitiateSwap {
-        #[serde(with = "robot_text")]
         robot: RobotId,
         roles: Vec<(String, String)>,
     },

@@ -4,11 +4,12 @@ use bevy::prelude::Vec2;
 
 use super::check::{Known, KnownTeam, Scenario, check};
 use super::file::ScenarioFile;
-use super::scene::{MessageCounts, RobotScene, Scene};
+use super::scene::{RobotScene, Scene};
 use crate::data::{DataError, Source};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
+use crate::radio::MessageCounts;
 
 /// Ticks a second.
 pub(super) const HZ: f32 = 60.0;

@@ -98,8 +98,8 @@ impl Watch {
 
     fn count(&self, packets: &Packets, scene: &Scene) -> u64 {
         match self.condition {
-            Condition::Sent(_) => scene.messages.sent(packets),
-            _ => scene.messages.delivered(packets),
+            Condition::Sent(_) => scene.messages.sent(packets.kind, packets.from, packets.to),
+            _ => scene.messages.delivered(packets.kind, packets.from, packets.to),
         }
     }
 }

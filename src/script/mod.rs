@@ -20,17 +20,20 @@ use crate::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::Role;
-pub use requests::{Request, Requests, Shove, Treatment, Weather};
+pub use requests::{Request, Requests, Script, Shove, Treatment, Weather};
 
 pub(super) fn plugin(app: &mut App) {
     let in_order = (
+        requests::follow_script,
         carry_out_requests,
         air::change_weather,
         robots::treat_robots,
         bodies::shove_bodies,
         forget_requests,
     );
-    app.init_resource::<Requests>().add_systems(Tick, in_order.chain().in_set(TickSystems::Script));
+    app.init_resource::<Requests>()
+        .init_resource::<Script>()
+        .add_systems(Tick, in_order.chain().in_set(TickSystems::Script));
 }
 
 type Scripted<'a> = (Entity, &'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory, Has<Pilot>);

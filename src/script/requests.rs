@@ -1,9 +1,11 @@
 //! What people and scenarios ask of a running match.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use crate::clock::Clock;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pilot::Pilot;
@@ -79,6 +81,26 @@ pub enum Shove {
     Push { robot: RobotId, by: Vec2 },
     /// Carries a robot off without telling it, to a pose in the pitch frame.
     Kidnap { robot: RobotId, to: Pose },
+}
+
+/// What a scenario has planned for later, the next one first.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Script(VecDeque<(u64, Request)>);
+
+impl Script {
+    /// Requests with their ticks, in any order; those for one tick are made in the order given.
+    pub fn new(planned: &[(u64, Request)]) -> Script {
+        let mut planned: Vec<_> = planned.to_vec();
+        planned.sort_by_key(|(tick, _)| *tick);
+        Script(planned.into())
+    }
+}
+
+/// Makes the requests that are due.
+pub(super) fn follow_script(clock: Res<Clock>, mut script: ResMut<Script>, mut requests: ResMut<Requests>) {
+    while let Some((_, request)) = script.0.pop_front_if(|(tick, _)| *tick <= clock.tick) {
+        requests.ask(request);
+    }
 }
 
 /// Requests that wait for the next tick.

@@ -17,6 +17,7 @@ impl fmt::Display for Feature {
             Feature::Not(what) => write!(f, "not {what}"),
             Feature::All(parts) => list(f, parts, " and "),
             Feature::Any(parts) => list(f, parts, " or "),
+            Feature::InRole(role) => write!(f, "is the {}", role.name),
             Feature::HasBall => f.write_str("has the ball"),
             Feature::TeammateHasBall(roles) if roles.is_empty() => f.write_str("a team mate has the ball"),
             Feature::TeammateHasBall(roles) => {

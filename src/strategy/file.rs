@@ -17,10 +17,17 @@ pub struct StrategyFile {
     pub name: String,
     #[serde(default)]
     pub description: String,
+    /// The strategy that fills whatever this file leaves out: the name of a file beside it. Of pieces with the same name,
+    /// this file's own count.
+    #[serde(default)]
+    pub based_on: Option<String>,
     /// Kinds of robots that can play it, by their files' names.
+    #[serde(default)]
     pub robot_kinds: Vec<String>,
     /// The role of each robot at kick-off, by number.
+    #[serde(default)]
     pub players: Vec<String>,
+    #[serde(default)]
     pub kick_off: KickOff,
     #[serde(default)]
     pub zones: BTreeMap<String, Zone>,
@@ -30,16 +37,20 @@ pub struct StrategyFile {
     pub point_sets: BTreeMap<String, Points>,
     #[serde(default)]
     pub features: BTreeMap<String, Feature>,
+    #[serde(default)]
     pub schemas: BTreeMap<String, Schema>,
+    #[serde(default)]
     pub assemblages: BTreeMap<String, AssemblageFile>,
+    #[serde(default)]
     pub machines: BTreeMap<String, MachineFile>,
+    #[serde(default)]
     pub roles: BTreeMap<String, RoleFile>,
     #[serde(default)]
-    pub teamwork: TeamworkFile,
+    pub teamwork: Option<TeamworkFile>,
 }
 
 /// Where people put the robots for a kick-off, by number: x, y in the team frame, looking at the opponents' goal.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KickOff {
     /// When this team kicks off.

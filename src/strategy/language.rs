@@ -216,6 +216,8 @@ pub enum Feature {
     },
     /// A mechanism of teamwork is on.
     On(Mechanism),
+    /// The robot has this role itself, whatever sub-role it acts in.
+    InRole(RoleRef),
     /// The robot's own claim of the ball holds.
     HasBall,
     /// A team mate's claim of the ball holds, one in one of these roles; any, if none is named.

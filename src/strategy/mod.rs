@@ -3,6 +3,7 @@
 //! A file in `assets/strategies` is parsed into a [`StrategyFile`] and then resolved into the [`Strategy`] that runs: names
 //! looked up, numbers checked, nothing half-loaded. See [`language`] for the words of a file.
 
+mod base;
 mod display;
 mod file;
 pub mod language;
@@ -161,7 +162,7 @@ impl Strategy {
     /// # Errors
     /// As [`Strategy::read`].
     pub fn parse(source: &Source) -> Result<Strategy, DataError> {
-        resolve::resolve(&source.parse()?, source)
+        resolve::resolve(&base::complete(source.parse()?, source)?, source)
     }
 
     /// Whether robots that play `before` can play on with this strategy.

@@ -1,7 +1,7 @@
 //! What the runs check: properties of states, and facts about single steps, which a state remembers once they are watched.
 
 use stateright::{Checker, Model, Property};
-use touchline::protocol::role_swap::{Message, Phase, RoleIndex, RoleSwap};
+use touchline::protocol::role_swap::{Message, Order, Phase, RoleIndex, RoleSwap};
 
 use super::model::{Action, Robot, State};
 use super::network::Envelope;
@@ -74,9 +74,9 @@ impl Check {
     fn property(self) -> Property<Team> {
         match self {
             Check::AllDiffer => always("all roles differ", |_, s| differ(s.live())),
-            Check::FreeDiffer => always("roles of free robots differ", |_, s| {
-                differ(s.live().filter(|robot| robot.is_free()))
-            }),
+            Check::FreeDiffer => {
+                always("roles of free robots differ", |_, s| differ(s.live().filter(|robot| robot.is_free())))
+            }
             Check::QuietDiffer => {
                 always("roles differ when quiet", |team, s| !team.is_quiet(s) || differ(s.live()))
             }
@@ -86,13 +86,16 @@ impl Check {
             }),
             Check::Permutations => always("configurations are permutations", |team, s| {
                 let all = team.roles_at_start();
-                s.robots.iter().filter_map(|r| r.machine.configuration()).all(|c| c.assignment.has_roles_of(&all))
+                s.robots
+                    .iter()
+                    .filter_map(|r| r.machine.configuration())
+                    .all(|c| c.assignment.has_roles_of(&all))
             }),
-            Check::SettledAgree => always("the settled agree", |team, s| {
-                !team.is_settled(s) || agree(s)
-            }),
+            Check::SettledAgree => always("the settled agree", |team, s| !team.is_settled(s) || agree(s)),
             Check::SometimesSwapped => Property::sometimes("roles are swapped", |team: &Team, s: &State| {
-                team.is_quiet(s) && differ(s.live()) && s.robots.iter().zip(0..).take(3).all(|(r, n)| r.machine.role() != n)
+                team.is_quiet(s)
+                    && differ(s.live())
+                    && s.robots.iter().zip(0..).take(3).all(|(r, n)| r.machine.role() != n)
             }),
             Check::Never(fact) => fact.never(),
         }
@@ -115,9 +118,9 @@ impl Fact {
             Fact::RollBackIgnored => {
                 always("roll-backs are obeyed", |_, s| !s.facts.has(Fact::RollBackIgnored))
             }
-            Fact::RoleChangedOtherwise => always("roles change by configuration", |_, s| {
-                !s.facts.has(Fact::RoleChangedOtherwise)
-            }),
+            Fact::RoleChangedOtherwise => {
+                always("roles change by configuration", |_, s| !s.facts.has(Fact::RoleChangedOtherwise))
+            }
             Fact::WentBack => always("configurations grow", |_, s| !s.facts.has(Fact::WentBack)),
             Fact::CommittedOutOfOrder => {
                 always("commits are ordered", |_, s| !s.facts.has(Fact::CommittedOutOfOrder))
@@ -145,7 +148,8 @@ pub fn differ<'a>(robots: impl Iterator<Item = &'a Robot>) -> bool {
     roles.len() == count
 }
 
-fn agree(state: &State) -> bool {
+/// Whether live robots have one configuration, different roles and no locks.
+pub fn agree(state: &State) -> bool {
     let mut held = state.live().map(|robot| robot.machine.configuration());
     let first = held.next();
     held.all(|other| Some(other) == first) && differ(state.live()) && state.live().all(Robot::is_free)
@@ -184,7 +188,9 @@ impl Team {
 impl Fact {
     fn in_step(self, before: &State, action: &Action, after: &State) -> bool {
         let delivered = match action {
-            Action::Deliver(place) | Action::DeliverAndKeep(place) => Some(&before.network.in_flight()[*place]),
+            Action::Deliver(place) | Action::DeliverAndKeep(place) => {
+                Some(&before.network.in_flight()[*place])
+            }
             _ => None,
         };
         match (self, delivered) {
@@ -207,7 +213,9 @@ impl Fact {
         let (was, is) = (&before.robot(to).machine, &after.robot(to).machine);
         let over = !before.attempt_goes_on(from, message.sequence());
         match (self, message) {
-            (Fact::LateLockLocks, Message::Lock { .. }) => over && was.lock().is_none() && is.lock().is_some(),
+            (Fact::LateLockLocks, Message::Lock { .. }) => {
+                over && was.lock().is_none() && is.lock().is_some()
+            }
             (Fact::LateSwapObeyed, Message::Swap { .. }) => over && !roll_back && was.role() != is.role(),
             (Fact::LockCountedInVain, Message::AckLock { sequence, .. }) => {
                 let held = before.robot(from).machine.lock();
@@ -215,10 +223,12 @@ impl Fact {
                 !holds && counted(was, is)
             }
             (Fact::WrongAckCounted, Message::AckSwap { .. }) => {
-                matches!(was, RoleSwap::Paper(machine) if machine.rolls_back()) && !roll_back && counted(was, is)
+                matches!(was, RoleSwap::Paper(machine) if machine.rolls_back())
+                    && !roll_back
+                    && counted(was, is)
             }
             (Fact::RollBackIgnored, Message::Swap { order, .. }) => {
-                let switched = *order != touchline::protocol::role_swap::Order::Role(was.role());
+                let switched = *order != Order::Role(was.role());
                 before.robot(to).up && roll_back && switched && was.role() == is.role()
             }
             _ => false,
@@ -231,15 +241,20 @@ fn counted(was: &RoleSwap, is: &RoleSwap) -> bool {
     was.phase() != is.phase() || was.awaited().len() != is.awaited().len()
 }
 
-fn role_changed_otherwise(before: &State, action: &Action, delivered: Option<&Envelope>, after: &State) -> bool {
-    let mut changed = before.robots.iter().zip(&after.robots).filter(|(a, b)| a.machine.role() != b.machine.role());
+fn role_changed_otherwise(
+    before: &State,
+    action: &Action,
+    delivered: Option<&Envelope>,
+    after: &State,
+) -> bool {
+    let mut changed =
+        before.robots.iter().zip(&after.robots).filter(|(a, b)| a.machine.role() != b.machine.role());
     let commits = matches!(action, Action::Initiate { .. })
         || delivered.is_some_and(|envelope| matches!(envelope.message, Message::AckSwap { .. }));
     let adopts = matches!(action, Action::Hear(..))
         || delivered.is_some_and(|envelope| matches!(envelope.message, Message::AckLock { .. }));
-    let committed = |robot: &Robot| {
-        robot.machine.configuration().is_some_and(|held| before.news.contains(held))
-    };
+    let committed =
+        |robot: &Robot| robot.machine.configuration().is_some_and(|held| before.news.contains(held));
     let restarted = matches!(action, Action::Crash { .. });
     !restarted && changed.any(|(_, now)| !(commits || adopts && committed(now)))
 }

@@ -35,7 +35,12 @@ impl Graph {
         graph
     }
 
-    fn place(&mut self, known: &mut HashMap<Rc<State>, usize>, state: State, found: Option<(usize, Action)>) -> usize {
+    fn place(
+        &mut self,
+        known: &mut HashMap<Rc<State>, usize>,
+        state: State,
+        found: Option<(usize, Action)>,
+    ) -> usize {
         let state = Rc::new(state);
         *known.entry(state).or_insert_with_key(|state| {
             self.states.push(Rc::clone(state));

@@ -70,7 +70,8 @@ impl State {
     /// Whether a robot is engaged in its attempt of this number.
     pub fn attempt_goes_on(&self, initiator: Number, attempt: Sequence) -> bool {
         let robot = self.robot(initiator);
-        let (Phase::WaitingForLocks { sequence } | Phase::WaitingForAcks { sequence }) = robot.machine.phase()
+        let (Phase::WaitingForLocks { sequence } | Phase::WaitingForAcks { sequence }) =
+            robot.machine.phase()
         else {
             return false;
         };
@@ -99,19 +100,26 @@ impl Team {
         match (timer, machine.phase(), machine.lock()) {
             (Timer::Locks, Phase::WaitingForLocks { sequence: q }, _) => machine.awaited().iter().all(|j| {
                 !network.any(robot, *j, |m| matches!(m, Message::Lock { sequence } if *sequence == q))
-                    && !network
-                        .any(*j, robot, |m| matches!(m, Message::AckLock { sequence, .. } if *sequence == q))
+                    && !network.any(
+                        *j,
+                        robot,
+                        |m| matches!(m, Message::AckLock { sequence, .. } if *sequence == q),
+                    )
             }),
             (Timer::Acks, Phase::WaitingForAcks { sequence: q }, _) => machine.awaited().iter().all(|j| {
                 !network.any(robot, *j, |m| matches!(m, Message::Swap { sequence, .. } if *sequence == q))
-                    && !network
-                        .any(*j, robot, |m| matches!(m, Message::AckSwap { sequence } if *sequence == q))
+                    && !network.any(
+                        *j,
+                        robot,
+                        |m| matches!(m, Message::AckSwap { sequence } if *sequence == q),
+                    )
             }),
             (Timer::Lock, _, Some(Lock { by, sequence: q })) => {
                 let swap = |m: &Message| matches!(m, Message::Swap { sequence, .. } if *sequence == q);
-                !state.attempt_goes_on(by, q)
-                    && !network.any(by, robot, swap)
-                    && !(self.news && self.held_by_the_living(state).any(|c| (c.epoch, c.initiator) >= (q, by)))
+                let swap_may_come = state.attempt_goes_on(by, q) || network.any(by, robot, swap);
+                let newer = |held: &Configuration| (held.epoch, held.initiator) >= (q, by);
+                let news_may_come = self.news && self.held_by_the_living(state).any(newer);
+                !swap_may_come && !news_may_come
             }
             _ => true,
         }
@@ -152,9 +160,7 @@ impl Team {
         }
     }
 
-    fn carry_out(
-        &self, state: &mut State, robot: Number, effects: Effects, rolls_back: bool, answers: bool,
-    ) {
+    fn carry_out(&self, state: &mut State, robot: Number, effects: Effects, rolls_back: bool, answers: bool) {
         for effect in effects {
             let running = &mut state.robots[usize::from(robot)].running;
             match effect {
@@ -188,8 +194,10 @@ impl Team {
         }) {
             for reassignment in self.reassignments(robot) {
                 let groups = self.groups(robot).into_iter();
-                actions.extend(groups.map(|asked| {
-                    Action::Initiate { robot, reassignment: reassignment.clone(), asked }
+                actions.extend(groups.map(|asked| Action::Initiate {
+                    robot,
+                    reassignment: reassignment.clone(),
+                    asked,
                 }));
             }
         }

@@ -20,7 +20,7 @@ pub struct Radio {
     pub loss: Loss,
     /// So many deliveries may leave a copy behind.
     pub duplicates: u8,
-    /// More equal messages than these are never in flight; a further one is one of them.
+    /// At most so many equal messages are in flight; a further one is not sent.
     pub alike: usize,
 }
 
@@ -86,9 +86,7 @@ impl Network {
 
     /// The places of the messages that may arrive next.
     pub fn deliverable(&self, radio: Radio) -> impl Iterator<Item = usize> {
-        self.first_of_each(move |a, b| {
-            if radio.ordered { (a.from, a.to) == (b.from, b.to) } else { a == b }
-        })
+        self.first_of_each(move |a, b| if radio.ordered { (a.from, a.to) == (b.from, b.to) } else { a == b })
     }
 
     /// The places of the messages that may be lost, after so many losses; of equal ones the first.

@@ -91,7 +91,8 @@ fn a_roll_back_that_overtakes_its_swap_doubles_a_role() {
 
 #[test]
 fn late_copies_of_an_attempt_that_went_well_undo_the_next() {
-    let team = Team { radio: Radio::RELIABLE.doubling(2), ..Team::paper(ROLL_BACK, Unlock::WhenAcknowledged) };
+    let team =
+        Team { radio: Radio::RELIABLE.doubling(2), ..Team::paper(ROLL_BACK, Unlock::WhenAcknowledged) };
     let team = Team { attempts: vec![vec![0]; 2], ..team };
     let story = Story::of(team, Check::QuietDiffer, 22);
     assert_eq!(story.roles(), [FLOATER, HALFBACK, HALFBACK]);

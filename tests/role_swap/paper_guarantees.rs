@@ -43,7 +43,8 @@ fn one_attempt_over_a_reliable_radio_swaps_roles() {
 
 #[test]
 fn two_attempts_over_a_reliable_radio_leave_each_role_to_one_robot() {
-    for (unlock, unordered, ordered) in [(Unlock::AtTimeout, 745, 745), (Unlock::WhenAcknowledged, 788, 716)] {
+    for (unlock, unordered, ordered) in [(Unlock::AtTimeout, 745, 745), (Unlock::WhenAcknowledged, 788, 716)]
+    {
         let team = || attempts(2, Team::paper(ROLL_BACK, unlock));
         team().holds(&GUARANTEED, unordered);
         Team { radio: Radio::RELIABLE.in_order(), ..team() }.holds(&GUARANTEED, ordered);

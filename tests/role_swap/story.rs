@@ -77,11 +77,15 @@ fn sentence(before: &State, action: &Action, after: &State) -> String {
         Action::Initiate { robot, asked, .. } => {
             let asked: Vec<String> = asked.iter().map(|robot| format!("R{robot}")).collect();
             let asked = if asked.is_empty() { "nobody".to_owned() } else { asked.join(" and ") };
-            format!("R{robot} decides to swap roles and asks {asked} for locks{}", outcome(before, after, *robot))
+            format!(
+                "R{robot} decides to swap roles and asks {asked} for locks{}",
+                outcome(before, after, *robot)
+            )
         }
         Action::Deliver(place) | Action::DeliverAndKeep(place) => {
             let (what, from, to) = message(place);
-            let copy = if matches!(action, Action::DeliverAndKeep(_)) { " (and will come again)" } else { "" };
+            let copy =
+                if matches!(action, Action::DeliverAndKeep(_)) { " (and will come again)" } else { "" };
             let outcome = match outcome(before, after, to) {
                 _ if !before.robot(to).up => ", which is down".to_owned(),
                 nothing if nothing.is_empty() => ", which ignores it".to_owned(),
@@ -125,7 +129,9 @@ fn describe(message: &Message, roll_back: bool) -> String {
     match message {
         Message::Lock { sequence } => format!("LOCK #{sequence}"),
         Message::AckLock { sequence, .. } => format!("ACKLOCK #{sequence}"),
-        Message::Swap { sequence, order: Order::Role(role) } => format!("{back}SWAP #{sequence} ({})", name(*role)),
+        Message::Swap { sequence, order: Order::Role(role) } => {
+            format!("{back}SWAP #{sequence} ({})", name(*role))
+        }
         Message::Swap { sequence, .. } => format!("SWAP #{sequence}"),
         Message::AckSwap { sequence } => format!("ACKSWAP #{sequence}"),
     }
@@ -144,7 +150,9 @@ fn outcome(before: &State, after: &State, robot: Number) -> String {
         _ => {}
     }
     match (was.phase(), is.phase()) {
-        (Phase::WaitingForLocks { .. }, Phase::WaitingForAcks { .. }) => outcomes.push("has all locks".to_owned()),
+        (Phase::WaitingForLocks { .. }, Phase::WaitingForAcks { .. }) => {
+            outcomes.push("has all locks".to_owned())
+        }
         (Phase::WaitingForLocks { .. } | Phase::WaitingForAcks { .. }, Phase::Idle) => {
             outcomes.push("ends its attempt".to_owned());
         }
@@ -154,9 +162,14 @@ fn outcome(before: &State, after: &State, robot: Number) -> String {
         _ => {}
     }
     for envelope in after.network.in_flight() {
-        let sent = |state: &State| state.network.in_flight().iter().filter(|other| *other == envelope).count();
+        let sent =
+            |state: &State| state.network.in_flight().iter().filter(|other| *other == envelope).count();
         if envelope.from == robot && sent(after) > sent(before) {
-            outcomes.push(format!("sends {} to R{}", describe(&envelope.message, envelope.roll_back), envelope.to));
+            outcomes.push(format!(
+                "sends {} to R{}",
+                describe(&envelope.message, envelope.roll_back),
+                envelope.to
+            ));
         }
     }
     outcomes.dedup();

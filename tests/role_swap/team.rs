@@ -121,9 +121,7 @@ impl Team {
         match self.version {
             Version::Paper(rules) => RoleSwap::Paper(Paper::new(robot, all, rules)),
             Version::Hardened(None) => RoleSwap::Hardened(Hardened::new(robot, all)),
-            Version::Hardened(Some(left_out)) => {
-                RoleSwap::Hardened(Hardened::without(robot, all, left_out))
-            }
+            Version::Hardened(Some(left_out)) => RoleSwap::Hardened(Hardened::without(robot, all, left_out)),
         }
     }
 

@@ -3,12 +3,15 @@
 use super::{Resolver, Result};
 use crate::data::Field;
 use crate::protocol::role_swap::RoleIndex;
-use crate::strategy::teamwork::{CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, Timers};
+use crate::strategy::teamwork::{
+    CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,
+};
 use crate::teamwork::policy::Cast;
 
 impl Resolver<'_> {
     pub(super) fn teamwork(&self, at: &Field) -> Result<Teamwork> {
-        let file = &self.file.teamwork;
+        let left_out = TeamworkFile::default();
+        let file = self.file.teamwork.as_ref().unwrap_or(&left_out);
         let at_hierarchy = at.key("hierarchy");
         let mut ranks = vec![file.hierarchy.len(); self.file.roles.len()];
         for (rank, name) in file.hierarchy.iter().enumerate() {

@@ -121,6 +121,7 @@ impl Resolver<'_> {
                 *feature = self.expand(&self.file.features, "feature", name, at, |s, f| s.feature(f, at))?;
             }
             Feature::Always | Feature::On(_) | Feature::HasBall | Feature::GoalieIsOut => {}
+            Feature::InRole(role) => self.role_ref(role, at)?,
             Feature::TeammateHasBall(roles) => {
                 for (i, role) in roles.iter_mut().enumerate() {
                     self.role_ref(role, &at.index(i))?;

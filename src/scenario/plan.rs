@@ -1,0 +1,202 @@
+//! From a scenario file to matches that can be played, one for each seed.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use super::check::{Known, KnownTeam, Scenario, Side, check};
+use super::event::{Dependency, Event};
+use super::file::{Referee, ScenarioFile, SideFile};
+use crate::clock::{Clock, TICK_HZ};
+use crate::data::{AssetFolder, DataError, Field, Source};
+use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked};
+use crate::geometry::Pose;
+use crate::ids::{RobotId, Team};
+use crate::pitch::Pitch;
+use crate::protocol::role_swap::{PaperRules, Reassignment, RoleIndex};
+use crate::radio::{Partition, Radio};
+use crate::robot::Ailment;
+use crate::script::{Request, Shove, Treatment, Weather};
+use crate::strategy::Strategy;
+use crate::strategy::teamwork::Protocol;
+
+/// A scenario with everything that its matches need.
+#[derive(Clone, Debug)]
+pub struct ScenarioPlan {
+    pub path: PathBuf,
+    pub scenario: Scenario,
+    /// The match, with the first seed.
+    match_plan: MatchPlan,
+}
+
+impl ScenarioPlan {
+    /// Reads a scenario and all files that it names.
+    ///
+    /// # Errors
+    /// The first file that is missing or wrong, with the place of the fault.
+    pub fn read(assets: &AssetFolder, path: &Path) -> Result<ScenarioPlan, DataError> {
+        let source = Source::read(path)?;
+        let file: ScenarioFile = source.parse()?;
+        let pitch = checked(&assets.file("pitches", &file.pitch), Pitch::fault)?;
+        let home = team(assets, &file.home)?;
+        let away = team(assets, file.away.as_ref().unwrap_or(&file.home))?;
+        let known = Known {
+            pitch: &pitch,
+            teams: [known(&home), if file.away.is_some() { known(&away) } else { KnownTeam::default() }],
+            radios: assets.names("radios"),
+        };
+        let scenario = check(&file, &source, &known)?;
+        // The ball and the rules are those of the usual match.
+        let usual = MatchPlan::read(assets, &Choice::default())?;
+        let mut match_plan = MatchPlan {
+            name: scenario.name.clone(),
+            pitch,
+            radio: checked(&assets.file("radios", &scenario.radio), Radio::fault)?,
+            teams: [home, away],
+            seed: scenario.seeds.first().copied().unwrap_or(1),
+            situation: Some(situation(&scenario)),
+            faults: scenario.faults.clone(),
+            ..usual
+        };
+        for (team, side) in Team::BOTH.into_iter().zip(&scenario.sides) {
+            if let Some(side) = side {
+                cast(&mut match_plan.teams[team.index()], side);
+            }
+        }
+        match_plan.script = script(assets, &scenario, &match_plan)?;
+        let plan = ScenarioPlan { path: path.to_owned(), scenario, match_plan };
+        match plan.scenario.depends_on {
+            Some(dependency) if !plan.has(dependency) => {
+                let at = Field::root().key("depends_on");
+                Err(source.error_at(&at, format!("{dependency} is not on in the home team's strategy")))
+            }
+            _ => Ok(plan),
+        }
+    }
+
+    /// The match with a seed.
+    pub fn with_seed(&self, seed: u64) -> MatchPlan {
+        MatchPlan { seed, ..self.match_plan.clone() }
+    }
+
+    /// The same scenario without what it is said to depend on, in all teams.
+    pub fn without(&self, dependency: Dependency) -> ScenarioPlan {
+        let mut plan = self.clone();
+        for team in &mut plan.match_plan.teams {
+            switch_off(Arc::make_mut(&mut team.strategy), dependency);
+        }
+        plan
+    }
+
+    fn has(&self, dependency: Dependency) -> bool {
+        let teamwork = &self.match_plan.team(Team::Home).strategy.teamwork;
+        match dependency.mechanism() {
+            Some(mechanism) => teamwork.has(mechanism),
+            None => teamwork.role_swap.as_ref().is_some_and(|swap| swap.protocol == Protocol::Hardened),
+        }
+    }
+}
+
+fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
+    let teamwork = &mut strategy.teamwork;
+    match dependency.mechanism() {
+        Some(mechanism) => teamwork.mechanisms = teamwork.mechanisms.without(mechanism),
+        None => {
+            if let Some(swap) = &mut teamwork.role_swap {
+                swap.protocol = Protocol::Paper(PaperRules::default());
+            }
+        }
+    }
+}
+
+fn team(assets: &AssetFolder, file: &SideFile) -> Result<TeamPlan, DataError> {
+    let SideFile { strategy, robot, sensing, .. } = file;
+    let names = TeamFile { strategy: strategy.clone(), robot: robot.clone(), sensing: sensing.clone() };
+    TeamPlan::read(assets, &names)
+}
+
+fn known(team: &TeamPlan) -> KnownTeam<'_> {
+    let strategy = &team.strategy;
+    let states = strategy.machines.iter().flat_map(|machine| &machine.states);
+    KnownTeam {
+        players: strategy.players.len(),
+        roles: strategy.roles.iter().map(|role| role.name.as_str()).collect(),
+        activities: states.map(|state| state.name.as_str()).collect(),
+    }
+}
+
+/// Gives the players of a side the roles that the scenario wants, from kick-off on.
+fn cast(team: &mut TeamPlan, side: &Side) {
+    let strategy = Arc::make_mut(&mut team.strategy);
+    for player in &side.players {
+        let wanted = player.role.as_deref().and_then(|name| role(strategy, name));
+        let number = usize::from(player.id.number);
+        if let (Some(wanted), Some(place)) = (wanted, strategy.players.get_mut(number)) {
+            *place = usize::from(wanted);
+        }
+    }
+}
+
+fn role(strategy: &Strategy, name: &str) -> Option<RoleIndex> {
+    let index = strategy.roles.iter().position(|role| role.name == name)?;
+    RoleIndex::try_from(index).ok()
+}
+
+fn situation(scenario: &Scenario) -> Situation {
+    let placed = |player: &super::check::Player| (player.id, Placed { pose: player.pose, on: player.on });
+    Situation {
+        refereed: scenario.referee == Referee::Whole,
+        robots: scenario.players().map(placed).collect(),
+        ball: scenario.ball.at,
+        velocity: scenario.ball.velocity,
+    }
+}
+
+fn script(
+    assets: &AssetFolder,
+    scenario: &Scenario,
+    plan: &MatchPlan,
+) -> Result<Vec<(u64, Request)>, DataError> {
+    let clock = Clock::new(TICK_HZ);
+    let requests = scenario.script.iter().map(|event| {
+        let tick = (event.at / clock.dt).round() as u64;
+        Ok((tick, request(assets, &event.what, plan)?))
+    });
+    requests.collect()
+}
+
+fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Request, DataError> {
+    let afflict = |robot: RobotId, ailment| Request::Robot(robot, Treatment::Afflict(ailment));
+    Ok(match event {
+        Event::Crash(robot) => afflict(*robot, Ailment::Crashed),
+        Event::Freeze(robot) => afflict(*robot, Ailment::Frozen),
+        Event::Deaf(robot) => afflict(*robot, Ailment::Deaf),
+        Event::Mute(robot) => afflict(*robot, Ailment::Mute),
+        Event::Revive { robot, memory } => Request::Robot(*robot, Treatment::Revive(*memory)),
+        Event::CutOff(robot) => Request::Air(Weather::CutOff(*robot)),
+        Event::Reconnect(robot) => Request::Air(Weather::Reconnect(*robot)),
+        Event::Partition(one, other) => Request::Air(Weather::Part(Partition {
+            reason: "the scenario's script".into(),
+            one: one.iter().copied().collect(),
+            other: other.iter().copied().collect(),
+        })),
+        Event::Heal => Request::Air(Weather::Heal),
+        Event::Jam(jammed) => Request::Air(Weather::Jam(*jammed)),
+        Event::Radio(name) => {
+            Request::Air(Weather::Change(checked(&assets.file("radios", name), Radio::fault)?))
+        }
+        Event::Ball { at, velocity } => Request::Body(Shove::Ball { at: *at, velocity: *velocity }),
+        Event::Push { robot, by } => Request::Body(Shove::Push { robot: *robot, by: *by }),
+        Event::Kidnap { robot, to, facing } => {
+            let to = Pose { position: *to, heading: facing.to_radians() };
+            Request::Body(Shove::Kidnap { robot: *robot, to })
+        }
+        Event::InitiateSwap { robot, roles } => {
+            let strategy = &plan.team(robot.team).strategy;
+            let pair = |(from, to): &(String, String)| Some((role(strategy, from)?, role(strategy, to)?));
+            let pairs = roles.iter().filter_map(pair).collect();
+            Request::Robot(*robot, Treatment::Swap(Reassignment::Roles(pairs)))
+        }
+    })
+}
