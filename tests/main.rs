@@ -2,9 +2,11 @@
 
 mod command_line;
 mod play;
+mod radio;
 mod repeatability;
 mod role_swap;
 mod rolling_bodies;
+mod scenarios;
 mod schedule;
 mod strategies;
 mod support;

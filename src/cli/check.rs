@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use super::BAD_INPUT;
-use crate::data::{AssetFolder, DataError, Segment, Source, locate};
+use crate::data::{AssetFolder, DataError, Source};
 use crate::game::{Choice, MatchPlan};
 use crate::scenario::{Report, ScenarioPlan, junit};
 use crate::strategy::Strategy;
@@ -89,8 +89,7 @@ impl Check {
 
 /// A scenario expects something; a strategy does not.
 fn is_scenario(path: &Path) -> bool {
-    let expect = [Segment::Key("expect".into())];
-    Source::read(path).is_ok_and(|source| locate(&source.text, &expect).is_some())
+    Source::read(path).is_ok_and(|source| source.text.contains("expect:"))
 }
 
 impl Findings {

@@ -120,6 +120,7 @@ impl Perception<'_> {
         match points {
             Points::Teammates => self.teammates(),
             Points::Superiors => self.superiors(),
+            Points::Peers => self.peers(),
             Points::Claimant => self.carrier().into_iter().collect(),
             Points::Opponents => self.model.of_team(self.team.opponent()).collect(),
             Points::Walls => {

@@ -22,24 +22,40 @@ impl Perception<'_> {
         }
     }
 
-    /// The team mates to be avoided that rank above the robot. Markers tell no rank, so those known by sight alone count
-    /// among them.
+    /// The team mates that rank above the robot. Markers tell no rank, so those known by sight alone count among them.
     pub(super) fn superiors(&self) -> PointSet {
-        let ranked = self.teamwork.has(Mechanism::HierarchicalAvoidance);
-        if !ranked || self.teamwork.teammates_by == TeammatesBy::Sight {
+        if !self.teamwork.has(Mechanism::HierarchicalAvoidance) {
+            return PointSet::new();
+        }
+        let (own, ranks) = (self.role, self.teamwork);
+        self.teammates_ranked(|role| ranks.outranks(role, own), true)
+    }
+
+    /// The team mates that rank neither above nor below the robot: all of them where there is no hierarchy.
+    pub(super) fn peers(&self) -> PointSet {
+        if !self.teamwork.has(Mechanism::HierarchicalAvoidance) {
             return self.teammates();
         }
+        let (own, ranks) = (self.role, self.teamwork);
+        self.teammates_ranked(|role| !ranks.outranks(role, own) && !ranks.outranks(own, role), false)
+    }
+
+    /// The team mates whose roles fit, and with `strangers` those whose roles are not known.
+    fn teammates_ranked(&self, fits: impl Fn(usize) -> bool, strangers: bool) -> PointSet {
         if !self.teamwork.has(Mechanism::TeammateAvoidance) {
             return PointSet::new();
         }
-        let outranks = |number| {
-            let role = self.picture.roles.of(number);
-            role.is_some_and(|role| self.teamwork.outranks(usize::from(role), self.role))
-        };
-        let heard = self.model.mates.iter().filter(|mate| outranks(mate.number)).map(|mate| mate.position);
+        let role = |number| self.picture.roles.of(number).map(usize::from);
+        let heard = self.model.mates.iter().filter(|mate| role(mate.number).is_some_and(&fits));
+        let heard = heard.map(|mate| mate.position);
         match self.teamwork.teammates_by {
-            TeammatesBy::MessagesAndSight => heard.chain(self.model.strangers(self.team)).collect(),
-            TeammatesBy::Messages | TeammatesBy::Sight => heard.collect(),
+            TeammatesBy::Messages => heard.collect(),
+            TeammatesBy::MessagesAndSight if strangers => {
+                heard.chain(self.model.strangers(self.team)).collect()
+            }
+            TeammatesBy::MessagesAndSight => heard.collect(),
+            TeammatesBy::Sight if strangers => self.model.of_team(self.team).collect(),
+            TeammatesBy::Sight => PointSet::new(),
         }
     }
 

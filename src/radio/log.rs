@@ -95,6 +95,11 @@ impl RadioLog {
         }
     }
 
+    /// How many there were since the match began.
+    pub fn transmissions(&self) -> u64 {
+        self.next_id
+    }
+
     /// Oldest first.
     pub fn entries(&self) -> impl DoubleEndedIterator<Item = &Transmission> + '_ {
         self.entries.iter()

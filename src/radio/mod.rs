@@ -94,6 +94,8 @@ pub struct Envelope {
     pub sent: u64,
     /// The tick in which it arrives.
     pub due: u64,
+    /// It takes longer than the radio's ordinary delay.
+    pub late: bool,
 }
 
 /// On a message in flight: what it says.
@@ -135,6 +137,7 @@ impl Air<'_> {
                     to: packet.to,
                     sent: clock.tick,
                     due: copy.due,
+                    late: copy.late,
                 },
                 Payload(bytes.clone()),
                 MatchEntity,

@@ -4,20 +4,23 @@
 #[cfg(test)]
 mod tests;
 
+use std::hash::BuildHasher;
+
 use bevy::prelude::*;
 use serde::Serialize;
-use xxhash_rust::xxh3::xxh3_64_with_seed;
+use xxhash_rust::xxh3::{Xxh3DefaultBuilder, xxh3_64_with_seed};
 
 use crate::ball::Ball;
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
+use crate::radio::RadioLog;
 use crate::referee::{MatchState, Phase};
 use crate::rng::Seed;
 use crate::robot::{OffPitch, Trailer};
 use crate::schedule::{Tick, TickSystems};
-use crate::teamwork::Role;
+use crate::teamwork::{Role, Swapping};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, (digest, measure, move_clock).chain().in_set(TickSystems::Record));
@@ -26,7 +29,8 @@ pub(super) fn plugin(app: &mut App) {
 /// Figures about the match so far.
 #[derive(Resource, Clone, Debug, PartialEq, Serialize)]
 pub struct Record {
-    /// Equal digests mean equal matches: all poses, roles, activities and the score at all ticks.
+    /// Equal digests mean equal matches: all poses, roles, activities, role swaps and the score at all ticks, and how much was
+    /// said.
     pub digest: u64,
     /// Seconds of play in which each team was the last one near the ball, home first.
     pub possession: [f64; 2],
@@ -74,14 +78,20 @@ fn shares([home, away]: [f64; 2]) -> [f64; 2] {
     if total > 0.0 { [home / total, away / total] } else { [0.5, 0.5] }
 }
 
-type Bodies<'a> =
-    (&'a Pose, Option<&'a RobotId>, Option<&'a Trailer>, Option<&'a Role>, Option<&'a Activity>);
+type Bodies<'a> = (
+    &'a Pose,
+    Option<&'a RobotId>,
+    Option<&'a Trailer>,
+    Option<&'a Role>,
+    Option<&'a Activity>,
+    Option<&'a Swapping>,
+);
 
 /// Folds the state of the world into the digest, in the order of robots, trailers and ball.
-fn digest(mut record: ResMut<Record>, state: Res<MatchState>, bodies: Query<Bodies>) {
-    let mut sorted: smallvec::SmallVec<[(u32, [u32; 5]); 24]> = bodies
+fn digest(mut record: ResMut<Record>, state: Res<MatchState>, log: Res<RadioLog>, bodies: Query<Bodies>) {
+    let mut sorted: smallvec::SmallVec<[(u32, [u32; 6]); 24]> = bodies
         .iter()
-        .map(|(pose, robot, trailer, role, activity)| {
+        .map(|(pose, robot, trailer, role, activity, swapping)| {
             let key = |id: &RobotId| (id.team.index() as u32) << 8 | u32::from(id.number);
             let order = match (robot, trailer) {
                 (Some(id), _) => key(id),
@@ -91,7 +101,8 @@ fn digest(mut record: ResMut<Record>, state: Res<MatchState>, bodies: Query<Bodi
             let place = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
             let role = role.map_or(0, |role| role.0 as u32);
             let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
-            (order, [place[0], place[1], place[2], role, activity])
+            let swap = swapping.map_or(0, |swapping| Xxh3DefaultBuilder.hash_one(&swapping.machine) as u32);
+            (order, [place[0], place[1], place[2], role, activity, swap])
         })
         .collect();
     sorted.sort_unstable_by_key(|(order, _)| *order);
@@ -102,6 +113,7 @@ fn digest(mut record: ResMut<Record>, state: Res<MatchState>, bodies: Query<Bodi
     bytes.extend_from_slice(&state.score[0].to_le_bytes());
     bytes.extend_from_slice(&state.score[1].to_le_bytes());
     bytes.push(state.phase as u8);
+    bytes.extend_from_slice(&log.transmissions().to_le_bytes());
     record.digest = xxh3_64_with_seed(&bytes, record.digest);
 }
 

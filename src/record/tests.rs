@@ -21,6 +21,7 @@ fn app() -> App {
     app.insert_resource(record(1));
     app.insert_resource(Clock::new(60.0));
     app.insert_resource(state);
+    app.init_resource::<RadioLog>();
     app.world_mut().spawn((Ball { kind: BALL }, Pose::default()));
     robot(&mut app, Home, 0, 3.0);
     robot(&mut app, Away, 0, -3.0);

@@ -106,8 +106,10 @@ pub enum Points {
     Named(String),
     Teammates,
     Opponents,
-    /// The team mates that rank above the robot; all of them where there is no hierarchy.
+    /// The team mates that rank above the robot.
     Superiors,
+    /// The team mates that rank neither above nor below the robot: all of them where there is no hierarchy.
+    Peers,
     /// The team mate that has claimed the ball, if there is one.
     Claimant,
     /// The nearest point of each of the four walls.

@@ -14,7 +14,7 @@ pub struct BorderWatch {
 /// The border is this wide, so that a goalie that stands on it does not leave and enter all the time, m.
 const BORDER: f32 = 0.1;
 /// Crossings nearer to the middle of the goal than this are at the centre, m.
-const CENTRE: f32 = 0.4;
+const CENTRE: f32 = 0.2;
 
 impl BorderWatch {
     /// What there is to tell, given the goalie's place in the team frame: it leaves when it comes out on the ball's account,

@@ -166,9 +166,22 @@ impl SwapperItem<'_, '_> {
             return;
         }
         swapping.planned = Some(reassignment.apply(&self.picture.roles, &kick_off_roles(strategy)));
-        let team = 0..strategy.players.len() as Number;
-        let participants = team.filter(|number| *number != self.id.number).collect();
+        let participants = self.participants(spec.protocol, strategy.players.len());
+        if participants.is_empty() {
+            return;
+        }
         self.step(Input::Initiate { reassignment, participants }, &spec.timers, clock);
+    }
+
+    /// Whose locks an attempt needs: everybody's in the paper; in the hardened version those heard of lately, since a robot that
+    /// is off would block all swaps for good, and the configurations mend whatever it missed.
+    fn participants(&self, protocol: Protocol, players: usize) -> SmallVec<[Number; 8]> {
+        match protocol {
+            Protocol::Paper(_) => (0..players as Number).filter(|number| *number != self.id.number).collect(),
+            Protocol::Hardened | Protocol::HardenedWithout(_) => {
+                self.model.mates.iter().map(|mate| mate.number).collect()
+            }
+        }
     }
 
     /// The players in play that the robot knows of, itself included.

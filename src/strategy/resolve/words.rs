@@ -63,7 +63,12 @@ impl Resolver<'_> {
                 *points =
                     self.expand(&self.file.point_sets, "point set", name, at, |s, p| s.points(p, at))?;
             }
-            Points::Teammates | Points::Opponents | Points::Superiors | Points::Claimant | Points::Walls => {}
+            Points::Teammates
+            | Points::Opponents
+            | Points::Superiors
+            | Points::Peers
+            | Points::Claimant
+            | Points::Walls => {}
             Points::These(list) => {
                 for (i, point) in list.iter_mut().enumerate() {
                     self.point(point, &at.index(i))?;

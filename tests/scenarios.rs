@@ -1,0 +1,60 @@
+//! Every shipped scenario passes on all its seeds, and fails without what it depends on.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use touchline::scenario::{Report, ScenarioPlan};
+
+use crate::support::assets;
+
+fn plans() -> Vec<ScenarioPlan> {
+    let assets = assets();
+    let read = |name: &String| {
+        ScenarioPlan::read(&assets, &assets.file("scenarios", name)).unwrap_or_else(|error| panic!("{error}"))
+    };
+    assets.names("scenarios").iter().map(read).collect()
+}
+
+/// Plays all scenarios on two threads; the reports are in the scenarios' order.
+fn play(plans: &[ScenarioPlan], run: impl Fn(&ScenarioPlan) -> Option<Report> + Sync) -> Vec<Report> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let mut done = Vec::new();
+        while let Some((index, plan)) = {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            plans.get(index).map(|plan| (index, plan))
+        } {
+            done.extend(run(plan).map(|report| (index, report)));
+        }
+        done
+    };
+    let mut reports = thread::scope(|scope| {
+        let workers = [scope.spawn(worker), scope.spawn(worker)];
+        workers.into_iter().flat_map(|worker| worker.join().expect("no scenario panics")).collect::<Vec<_>>()
+    });
+    reports.sort_by_key(|(index, _)| *index);
+    reports.into_iter().map(|(_, report)| report).collect()
+}
+
+#[track_caller]
+fn assert_all_pass(reports: &[Report]) {
+    let failed: Vec<String> =
+        reports.iter().filter(|report| !report.passed()).map(Report::to_string).collect();
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}
+
+#[test]
+fn every_shipped_scenario_passes_on_ten_seeds() {
+    let plans = plans();
+    assert!(plans.len() >= 20, "{} scenarios", plans.len());
+    assert!(plans.iter().all(|plan| plan.scenario.seeds.len() >= 10));
+    assert_all_pass(&play(&plans, |plan| Some(plan.run(None))));
+}
+
+#[test]
+fn every_scenario_fails_without_what_it_depends_on() {
+    let plans = plans();
+    let reports = play(&plans, |plan| plan.scenario.depends_on.map(|dependency| plan.run(Some(dependency))));
+    assert!(reports.len() >= 15, "{} scenarios depend on something", reports.len());
+    assert_all_pass(&reports);
+}
