@@ -49,9 +49,9 @@ struct MatchOptions {
     /// The radio: a name among the assets or a path.
     #[arg(long, value_name = "RADIO")]
     radio: Option<String>,
-    /// Equal seeds give equal matches.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Equal seeds give equal matches; 1 if not given.
+    #[arg(long)]
+    seed: Option<u64>,
     /// Minutes of a half.
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f32>,
@@ -65,7 +65,7 @@ impl MatchOptions {
             away: self.away.clone(),
             radio: self.radio.clone(),
             half_minutes: self.minutes,
-            seed: self.seed,
+            seed: self.seed.unwrap_or(1),
             pilot,
         }
     }

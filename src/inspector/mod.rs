@@ -8,6 +8,7 @@ mod kinds;
 mod matching;
 mod overlays;
 mod panel;
+mod radio;
 mod sections;
 mod strokes;
 mod subject;
@@ -25,7 +26,7 @@ use crate::view::state::Screen;
 /// Adds the panel, the overlays and the view of the world to a window.
 pub fn plugin(app: &mut App) {
     app.init_resource::<Inspector>()
-        .add_plugins((panel::plugin, overlays::plugin, weights::plugin, world_view::plugin))
+        .add_plugins((panel::plugin, overlays::plugin, radio::plugin, weights::plugin, world_view::plugin))
         .add_systems(
             Update,
             toggle.run_if(in_state(Screen::Match).and_then(not(egui_wants_any_keyboard_input))),

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::kinds::Kind;
-pub use crate::view::colours::{egui, team};
+pub use crate::view::colours::{egui, team, team_text as lighter};
 
 /// What the robot's sensors said.
 pub const SENSED: Color = Color::srgb(1.0, 1.0, 1.0);

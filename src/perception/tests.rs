@@ -229,3 +229,4 @@ fn a_remembered_place_stays_on_the_field_while_the_robot_moves_and_fades_with_ti
 }
 
 mod features;
+mod teammates;

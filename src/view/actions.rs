@@ -53,7 +53,7 @@ const fn bind(keys: &'static str, does: &'static str, action: Action) -> Binding
 }
 
 /// All keys but those that drive.
-pub const BINDINGS: [Binding; 17] = [
+pub const BINDINGS: [Binding; 19] = [
     bind("Space", "Pause, or play on", Action::PlayOrPause),
     bind(".", "One tick", Action::OneTick),
     bind("+", "Faster", Action::Faster),
@@ -68,6 +68,8 @@ pub const BINDINGS: [Binding; 17] = [
     bind("3", "Sensed and believed", Action::Switch(Overlay::Beliefs)),
     bind("4", "Danger zone and homebase", Action::Switch(Overlay::Zones)),
     bind("5", "Roles and activities", Action::Switch(Overlay::Labels)),
+    bind("6", "Teamwork: claims, supports, locks and messages", Action::Switch(Overlay::Teamwork)),
+    bind("M", "The radio: messages, counters, interference", Action::Switch(Overlay::Radio)),
     bind("F1 or ?", "These keys", Action::Help),
     bind("Escape", "Close what is open, or leave the match", Action::Escape),
     bind("Escape", "Back to the menu", Action::Leave),
@@ -102,6 +104,8 @@ impl Action {
                 "3" => once(Action::Switch(Overlay::Beliefs)),
                 "4" => once(Action::Switch(Overlay::Zones)),
                 "5" => once(Action::Switch(Overlay::Labels)),
+                "6" => once(Action::Switch(Overlay::Teamwork)),
+                "m" => once(Action::Switch(Overlay::Radio)),
                 _ => None,
             },
             _ => None,

@@ -25,12 +25,14 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// The overlays as they are called on their buttons.
-const OVERLAYS: [(Overlay, &str); 5] = [
+const OVERLAYS: [(Overlay, &str); 7] = [
     (Overlay::Vectors, "1 Vectors"),
     (Overlay::FieldOfView, "2 View"),
     (Overlay::Beliefs, "3 Beliefs"),
     (Overlay::Zones, "4 Zones"),
     (Overlay::Labels, "5 Labels"),
+    (Overlay::Teamwork, "6 Teamwork"),
+    (Overlay::Radio, "M Radio"),
 ];
 
 /// A speed as people write it.

@@ -24,6 +24,12 @@ pub const ROBOT: Color = rgb(0x1B_1D_22);
 pub const ROBOT_EDGE: Color = rgb(0x5A_61_6B);
 pub const BALL: Color = rgb(0xFF_8A_1F);
 pub const BALL_EDGE: Color = rgb(0x6B_30_00);
+/// A claim of the ball.
+pub const CLAIM: Color = BALL;
+/// A lock of the role swap.
+pub const LOCK: Color = rgb(0xFF_B3_00);
+/// A message that got lost.
+pub const LOST: Color = rgb(0x9A_A2_9D);
 /// The ring of a robot under a person's hand, and what sensors said.
 pub const PILOT: Color = rgb(0xFF_FF_FF);
 
@@ -33,6 +39,8 @@ pub const TEXT: Color = rgb(0xE6_EA_E7);
 pub const QUIET: Color = rgb(0xA3_AE_A7);
 /// What the referee has just decided.
 pub const CALL: Color = rgb(0xFF_D1_66);
+/// What went well.
+pub const GOOD: Color = rgb(0x6F_D8_8C);
 /// What went wrong.
 pub const TROUBLE: Color = rgb(0x9E_2A_2B);
 /// A robot that is off the pitch.

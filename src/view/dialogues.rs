@@ -74,7 +74,8 @@ fn open_and_close(
     (mut open, mut selected, piloted): (ResMut<Open>, ResMut<Selected>, Res<Piloted>),
     mut doing: Doing,
 ) {
-    let running = state.phase != Phase::Finished && clock.tick > 0;
+    // A scenario is soon played again, so nothing is lost with it.
+    let running = state.phase != Phase::Finished && clock.tick > 0 && doing.session.scenario.is_none();
     for action in actions.read() {
         match action {
             Action::Help => open.help = !open.help,
@@ -110,7 +111,7 @@ struct Doing<'w> {
 impl Doing<'_> {
     fn carry_out(&mut self, question: Question) {
         match question {
-            Question::Restart => self.wish.0 = Some(self.session.choice.clone()),
+            Question::Restart => self.wish.0 = Some(self.session.wanted.clone()),
             Question::Leave => self.screen.set(Screen::Menu),
         }
     }

@@ -53,7 +53,7 @@ mod tests {
     use bevy::state::app::StatesPlugin;
     use bevy::time::TimeUpdateStrategy;
 
-    use super::super::session::{Folder, Wish};
+    use super::super::session::{Folder, Wanted, Wish};
     use super::super::shown::Shown;
     use super::*;
     use crate::data::AssetFolder;
@@ -71,7 +71,7 @@ mod tests {
         app.init_asset::<Mesh>().init_asset::<ColorMaterial>();
         app.add_plugins((crate::simulation, super::super::played));
         app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
-        app.insert_resource(Folder(assets())).insert_resource(Wish(Some(choice.clone())));
+        app.insert_resource(Folder(assets())).insert_resource(Wish(Some(Wanted::Match(choice.clone()))));
         app.finish();
         app.cleanup();
         app
@@ -107,7 +107,7 @@ mod tests {
         app.update();
         let first = count(&mut app);
         assert_eq!(first, 8 + 8 + 1, "drive units, trailers and the ball");
-        app.world_mut().resource_mut::<Wish>().0 = Some(choice);
+        app.world_mut().resource_mut::<Wish>().0 = Some(Wanted::Match(choice));
         app.update();
         assert_eq!(count(&mut app), first);
     }

@@ -41,6 +41,12 @@ fn show_help(mut contexts: EguiContexts, area: Res<FreeArea>, mut open: ResMut<O
             table(ui, "second", second);
         });
         ui.add_space(8.0);
+        ui.label(egui::RichText::new("Signs beside robots").strong());
+        ui.scope(|ui| {
+            ui.set_max_width(820.0);
+            super::signs::show_legend(ui);
+        });
+        ui.add_space(8.0);
         ui.button("Close").on_hover_text("Escape").clicked()
     });
     if shown.and_then(|shown| shown.inner).unwrap_or(false) {

@@ -1,5 +1,5 @@
 //! Text on the pitch: numbers on the robots' plates, and beside each robot its role, its activity where there is room for it,
-//! and a sign if it is off the pitch. Drawn by egui's painter under all panels.
+//! and signs of what is wrong with it. Drawn by egui's painter under all panels.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -14,16 +14,18 @@ use super::layout::{FreeArea, PanelSystems};
 use super::nudge::{Choice, Placed};
 use super::robots::Plate;
 use super::shown::Shown;
+use super::signs::{self, Sign};
 use super::state::{Overlays, Screen, Selected};
 use super::style::{SMALL, font};
 use crate::ball::Ball;
 use crate::behaviour::Activity;
 use crate::ids::RobotId;
 use crate::pilot::Pilot;
+use crate::radio::Conditions;
 use crate::referee::MatchState;
-use crate::robot::OffPitch;
+use crate::robot::{OffPitch, Robot};
 use crate::strategy::{Strategies, Strategy};
-use crate::teamwork::Role;
+use crate::teamwork::{Role, Swapping};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Kept>().add_systems(
@@ -52,6 +54,8 @@ const LARGEST_NUMBER: f32 = 34.0;
 #[derive(QueryData)]
 struct Labelled {
     id: &'static RobotId,
+    robot: &'static Robot,
+    swapping: Option<&'static Swapping>,
     role: &'static Role,
     activity: &'static Activity,
     off_pitch: Has<OffPitch>,
@@ -97,7 +101,8 @@ fn off_text(state: &MatchState, robot: RobotId) -> String {
 fn write_on_pitch(
     mut contexts: EguiContexts,
     (area, sight, overlays, selected): (Res<FreeArea>, Res<Sight>, Res<Overlays>, Res<Selected>),
-    (state, strategies, mut kept): (Res<MatchState>, Res<Strategies>, ResMut<Kept>),
+    (state, strategies, conditions): (Res<MatchState>, Res<Strategies>, Res<Conditions>),
+    mut kept: ResMut<Kept>,
     shown: Query<(&Shown, Option<&Plate>)>,
     robots: Query<Labelled>,
     ball: Query<&Ball>,
@@ -127,8 +132,12 @@ fn write_on_pitch(
             continue;
         };
         let middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
-        if robot.off_pitch {
-            no_entry(&painter, middle + egui::vec2(1.0, -1.0) * REACH * sight.scale);
+        let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
+        let cut_off = conditions.cut_off.contains(robot.id);
+        let signs = Sign::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
+        let corner = middle + egui::vec2(0.8, -0.8) * REACH * sight.scale;
+        for (place, sign) in signs.iter().enumerate() {
+            sign.paint(&painter, corner + egui::vec2((2.0 * signs::RADIUS + 2.0) * place as f32, 0.0));
         }
         let is_selected = selected.0 == Some(plate.of);
         if !(overlays.labels || is_selected || robot.off_pitch) {
@@ -146,12 +155,6 @@ fn write_on_pitch(
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
     }
     Ok(())
-}
-
-/// The sign of a robot that the referee has sent off.
-fn no_entry(painter: &egui::Painter, at: egui::Pos2) {
-    painter.circle(at, 8.0, paint(colours::TROUBLE), (1.5, paint(colours::PILOT)));
-    painter.hline(at.x - 4.5..=at.x + 4.5, at.y, (3.0, paint(colours::PILOT)));
 }
 
 /// Room around a label's text, in points.

@@ -13,6 +13,7 @@ pub(super) fn plugin(app: &mut App) {
                 PanelSystems::Clear,
                 PanelSystems::Top,
                 PanelSystems::Bottom,
+                PanelSystems::Low,
                 PanelSystems::Side,
                 PanelSystems::Pitch,
                 PanelSystems::Floating,
@@ -31,7 +32,9 @@ pub enum PanelSystems {
     Top,
     /// Across the bottom: time and overlays.
     Bottom,
-    /// At the sides: the inspector.
+    /// Above the bar at the bottom: the radio.
+    Low,
+    /// At the sides: the inspector, the scenario.
     Side,
     /// Text on the pitch, in the area that is free now.
     Pitch,

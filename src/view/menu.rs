@@ -9,16 +9,29 @@ use super::colours::{self, egui as paint};
 use super::custom::{Form, fresh_seed};
 use super::layout::{FreeArea, PanelSystems};
 use super::menu_art::{Picture, paint_picture};
-use super::session::{Folder, Wish};
+use super::scenario_list::ScenarioList;
+use super::session::{Folder, Wanted, Wish};
 use super::state::Screen;
 use crate::game::Choice;
 use crate::ids::{RobotId, Team};
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Form>().add_systems(OnEnter(Screen::Menu), enter).add_systems(
-        EguiPrimaryContextPass,
-        show_menu.in_set(PanelSystems::Floating).run_if(in_state(Screen::Menu)),
-    );
+    app.init_resource::<Form>()
+        .init_resource::<ScenarioList>()
+        .init_resource::<ThirdCard>()
+        .add_systems(OnEnter(Screen::Menu), enter)
+        .add_systems(
+            EguiPrimaryContextPass,
+            show_menu.in_set(PanelSystems::Floating).run_if(in_state(Screen::Menu)),
+        );
+}
+
+/// What the third card shows.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum ThirdCard {
+    #[default]
+    Scenarios,
+    CustomMatch,
 }
 
 const CARD: egui::Vec2 = vec2(330.0, 330.0);
@@ -45,13 +58,15 @@ fn enter(world: &mut World) {
     super::shown::clear(world);
     if let Some(folder) = world.get_resource::<Folder>().cloned() {
         world.resource_mut::<Form>().refresh(&folder.0);
+        world.resource_mut::<ScenarioList>().refresh(&folder.0);
     }
 }
 
 fn show_menu(
     mut contexts: EguiContexts,
     area: Res<FreeArea>,
-    (mut form, mut wish, trouble): (ResMut<Form>, ResMut<Wish>, Res<Trouble>),
+    (mut third, mut form, mut scenarios): (ResMut<ThirdCard>, ResMut<Form>, ResMut<ScenarioList>),
+    (mut wish, trouble): (ResMut<Wish>, Res<Trouble>),
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
     let place = egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(area.0);
@@ -73,15 +88,23 @@ fn show_menu(
         let play = "You drive one robot of the home team against the CMU Hammerheads of 2001. Your three team mates \
                     chase the ball by themselves.";
         if picture_card(ui, "Play against the Hammerheads", Picture::Play, play, "Play") {
-            wish.0 = Some(against_the_hammerheads());
+            wish.0 = Some(Wanted::Match(against_the_hammerheads()));
         }
         let watch = "The CMU Hammerheads play against a team of ball chasers. Select a robot to see what it senses, \
                      believes and wants, and take it over whenever you like.";
         if picture_card(ui, "Watch", Picture::Watch, watch, "Watch") {
-            wish.0 = Some(to_watch());
+            wish.0 = Some(Wanted::Match(to_watch()));
         }
-        if let Some(choice) = card(ui, "Custom match", |ui| form.show(ui)) {
-            wish.0 = Some(choice);
+        let wanted = bare_card(ui, |ui| {
+            show_tabs(ui, &mut third);
+            ui.add_space(6.0);
+            match *third {
+                ThirdCard::Scenarios => scenarios.show(ui),
+                ThirdCard::CustomMatch => form.show(ui).map(Wanted::Match),
+            }
+        });
+        if wanted.is_some() {
+            wish.0 = wanted;
         }
     });
     if let Some(trouble) = &trouble.0 {
@@ -96,8 +119,36 @@ fn show_menu(
     Ok(())
 }
 
+/// The titles of the third card, of which one is chosen.
+fn show_tabs(ui: &mut egui::Ui, third: &mut ThirdCard) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 16.0;
+        for (card, title) in [(ThirdCard::Scenarios, "Scenarios"), (ThirdCard::CustomMatch, "Custom match")] {
+            let colour = if *third == card { colours::PILOT } else { colours::QUIET };
+            let text = RichText::new(title).size(20.0).color(paint(colour));
+            let tab = ui.add(egui::Label::new(text).sense(egui::Sense::click()));
+            let tab = tab.on_hover_cursor(egui::CursorIcon::PointingHand);
+            if *third == card {
+                let line = egui::Stroke::new(2.0, paint(colours::ACCENT));
+                ui.painter().hline(tab.rect.x_range(), tab.rect.bottom() + 1.0, line);
+            }
+            if tab.clicked() {
+                *third = card;
+            }
+        }
+    });
+}
+
 /// A card with a title, and the rest of it up to whoever calls.
 fn card<R>(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
+    bare_card(ui, |ui| {
+        ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
+        ui.add_space(6.0);
+        contents(ui)
+    })
+}
+
+fn bare_card<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
     let frame = egui::Frame::new().fill(paint(colours::PANEL)).corner_radius(10).inner_margin(18);
     let inner = CARD - frame.total_margin().sum();
     let shown = frame.show(ui, |ui| {
@@ -105,8 +156,6 @@ fn card<R>(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui) 
         ui.set_height(inner.y);
         let shown = ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.x = 6.0;
-            ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
-            ui.add_space(6.0);
             contents(ui)
         });
         shown.inner

@@ -13,7 +13,8 @@ pub mod colours;
 mod custom;
 mod dialogues;
 mod display;
-mod driver;
+pub mod driver;
+mod expectations;
 mod help;
 mod labels;
 pub mod layout;
@@ -25,10 +26,13 @@ mod pitch;
 mod reload;
 mod rings;
 mod robots;
+mod scenario_box;
+mod scenario_list;
 mod selection;
 mod session;
 mod shapes;
 pub mod shown;
+mod signs;
 pub mod state;
 mod style;
 mod time_line;
@@ -42,12 +46,12 @@ use bevy::window::{PresentMode, WindowResolution};
 use bevy_egui::EguiPlugin;
 
 pub use display::missing_for_a_window;
+pub use session::Wanted;
 
 use crate::data::AssetFolder;
-use crate::game::Choice;
 
 /// Opens the window and returns when it is closed: at the menu, or in the match if one was chosen.
-pub fn open_window(assets: &AssetFolder, choice: &Choice) -> ExitCode {
+pub fn open_window(assets: &AssetFolder, wanted: Wanted) -> ExitCode {
     let mut app = App::new();
     app.add_plugins(
         DefaultPlugins.set(WindowPlugin { primary_window: Some(window()), ..default() }).set(LogPlugin {
@@ -58,8 +62,8 @@ pub fn open_window(assets: &AssetFolder, choice: &Choice) -> ExitCode {
     );
     app.add_plugins((EguiPlugin::default(), crate::simulation, plugin, crate::inspector::plugin));
     app.insert_resource(session::Folder(assets.clone()));
-    if session::is_chosen(choice) {
-        app.insert_resource(session::Wish(Some(choice.clone())));
+    if session::is_chosen(&wanted) {
+        app.insert_resource(session::Wish(Some(wanted)));
     }
     match app.run() {
         AppExit::Success => ExitCode::SUCCESS,
@@ -94,7 +98,8 @@ fn plugin(app: &mut App) {
     app.insert_resource(ClearColor(colours::FLOOR))
         .add_plugins((played, layout::plugin, style::plugin, camera::plugin, labels::plugin, reload::plugin))
         .add_plugins((actions::plugin, selection::plugin, pilot_seat::plugin))
-        .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin));
+        .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin))
+        .add_plugins(scenario_box::plugin);
 }
 
 /// The match and its picture, without camera and interface: what can be tried without a window.
@@ -111,6 +116,6 @@ fn played(app: &mut App) {
                 .chain()
                 .run_if(in_state(state::Screen::Match)),
         )
-        .add_plugins((session::plugin, driver::plugin, shown::plugin, calls::plugin))
+        .add_plugins((session::plugin, driver::plugin, expectations::plugin, shown::plugin, calls::plugin))
         .add_plugins((pitch::plugin, robots::plugin, ball::plugin, rings::plugin));
 }

@@ -1,15 +1,22 @@
-//! Which match the window plays, and how one begins: a [`Wish`] is read and started before the next frame.
+//! Which match or scenario the window plays, and how one begins: a [`Wish`] is read and started before the next frame.
+
+use std::path::PathBuf;
 
 use bevy::prelude::*;
 
 use super::calls::Trouble;
+use super::expectations::Expectations;
 use super::state::{Pace, Piloted, Screen, Selected};
+use crate::clock::Clock;
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan, start_match};
+use crate::ids::Team;
+use crate::scenario::ScenarioPlan;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Wish>()
         .init_resource::<Session>()
+        .init_resource::<Expectations>()
         .add_systems(PreUpdate, begin_wished_match.run_if(|wish: Res<Wish>| wish.0.is_some()));
 }
 
@@ -17,25 +24,56 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(Resource, Clone, Debug)]
 pub struct Folder(pub AssetFolder);
 
-/// The match that is wanted next.
+/// What a person wants to see.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Wanted {
+    Match(Choice),
+    /// A scenario with one of its seeds or with any other.
+    Scenario {
+        path: PathBuf,
+        /// Its first one, if not given.
+        seed: Option<u64>,
+    },
+}
+
+impl Default for Wanted {
+    fn default() -> Wanted {
+        Wanted::Match(Choice::default())
+    }
+}
+
+/// What is wanted next.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Wish(pub Option<Choice>);
+pub struct Wish(pub Option<Wanted>);
 
 /// The match that is played.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Session {
     /// What it was made of.
-    pub choice: Choice,
+    pub wanted: Wanted,
     /// What that came to; none before the first match.
     pub plan: Option<MatchPlan>,
+    /// The scenario that it belongs to.
+    pub scenario: Option<ScenarioPlan>,
 }
+
+impl Session {
+    /// Whether a team takes part.
+    pub fn has(&self, team: Team) -> bool {
+        self.scenario.as_ref().is_none_or(|plan| plan.scenario.sides[team.index()].is_some())
+    }
+}
+
+/// What a wish comes to.
+type Plans = (MatchPlan, Option<ScenarioPlan>);
 
 /// A match has been put into the world, from its beginning.
 #[derive(Event, Clone, Copy, Debug)]
 pub struct MatchBegun;
 
-/// Whether the command line has chosen a match, rather than leaving it to the menu.
-pub fn is_chosen(choice: &Choice) -> bool {
+/// Whether the command line has chosen something, rather than leaving it to the menu.
+pub fn is_chosen(wanted: &Wanted) -> bool {
+    let Wanted::Match(choice) = wanted else { return true };
     let untouched = Choice { seed: choice.seed, ..Choice::default() };
     *choice != untouched || choice.seed > DEFAULT_SEED
 }
@@ -44,23 +82,24 @@ pub fn is_chosen(choice: &Choice) -> bool {
 pub const DEFAULT_SEED: u64 = 1;
 
 fn begin_wished_match(world: &mut World) {
-    let Some(choice) = world.resource_mut::<Wish>().0.take() else { return };
-    match plan_for(world, &choice) {
-        Ok(plan) => begin(world, choice, plan),
+    let Some(wanted) = world.resource_mut::<Wish>().0.take() else { return };
+    match plans_for(world, &wanted) {
+        Ok(plans) => begin(world, wanted, plans),
         Err(error) => world.resource_mut::<Trouble>().0 = Some(error.to_string()),
     }
 }
 
-/// The plan for a choice, from the files as they are now; while they are bad, a match that was played before can be
-/// played again from what was read then.
-fn plan_for(world: &mut World, choice: &Choice) -> Result<MatchPlan, DataError> {
-    let read = MatchPlan::read(&world.resource::<Folder>().0, choice);
+/// The plans for a wish, from the files as they are now; while they are bad, what was played before can be played again
+/// from what was read then.
+fn plans_for(world: &mut World, wanted: &Wanted) -> Result<Plans, DataError> {
+    let read = wanted.plans(&world.resource::<Folder>().0);
     let session = world.resource::<Session>();
-    let known = session.plan.clone().filter(|_| session.choice == *choice);
+    let known = session.plan.clone().filter(|_| session.wanted == *wanted);
+    let known = known.map(|plan| (plan, session.scenario.clone()));
     match (read, known) {
-        (Err(error), Some(plan)) => {
+        (Err(error), Some(plans)) => {
             world.resource_mut::<Trouble>().0 = Some(error.to_string());
-            Ok(plan)
+            Ok(plans)
         }
         (read, _) => {
             world.resource_mut::<Trouble>().0 = None;
@@ -69,13 +108,28 @@ fn plan_for(world: &mut World, choice: &Choice) -> Result<MatchPlan, DataError> 
     }
 }
 
-fn begin(world: &mut World, choice: Choice, plan: MatchPlan) {
+impl Wanted {
+    fn plans(&self, assets: &AssetFolder) -> Result<Plans, DataError> {
+        match self {
+            Wanted::Match(choice) => MatchPlan::read(assets, choice).map(|plan| (plan, None)),
+            Wanted::Scenario { path, seed } => {
+                let scenario = ScenarioPlan::read(assets, path)?;
+                let seed = seed.or_else(|| scenario.scenario.seeds.first().copied()).unwrap_or(DEFAULT_SEED);
+                Ok((scenario.with_seed(seed), Some(scenario)))
+            }
+        }
+    }
+}
+
+fn begin(world: &mut World, wanted: Wanted, (plan, scenario): Plans) {
     start_match(world, &plan);
+    let dt = world.resource::<Clock>().dt;
+    world.insert_resource(Expectations::of(scenario.as_ref().map(|plan| &plan.scenario), dt));
     world.insert_resource(Piloted(plan.pilot));
     world.insert_resource(Selected(plan.pilot));
     let speed = world.resource::<Pace>().speed;
     world.insert_resource(Pace { speed, ..Pace::default() });
-    world.insert_resource(Session { choice, plan: Some(plan) });
+    world.insert_resource(Session { wanted, plan: Some(plan), scenario });
     world.resource_mut::<NextState<Screen>>().set(Screen::Match);
     super::shown::clear(world);
     world.trigger(MatchBegun);
@@ -85,18 +139,35 @@ fn begin(world: &mut World, choice: Choice, plan: MatchPlan) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ids::{RobotId, Team};
+    use crate::ids::RobotId;
 
     #[test]
     fn a_command_line_without_choice_leads_to_the_menu() {
-        assert!(!is_chosen(&Choice::default()));
-        assert!(!is_chosen(&Choice { seed: DEFAULT_SEED, ..Choice::default() }));
+        assert!(!is_chosen(&Wanted::default()));
+        assert!(!is_chosen(&Wanted::Match(Choice { seed: DEFAULT_SEED, ..Choice::default() })));
     }
 
     #[test]
     fn a_seed_a_team_or_a_pilot_is_a_choice() {
-        assert!(is_chosen(&Choice { seed: 7, ..Choice::default() }));
-        assert!(is_chosen(&Choice { home: Some("ball_chasers".into()), ..Choice::default() }));
-        assert!(is_chosen(&Choice { pilot: Some(RobotId::new(Team::Away, 3)), ..Choice::default() }));
+        let pilot = Some(RobotId::new(Team::Away, 3));
+        for choice in [
+            Choice { seed: 7, ..Choice::default() },
+            Choice { home: Some("ball_chasers".into()), ..Choice::default() },
+            Choice { pilot, ..Choice::default() },
+        ] {
+            assert!(is_chosen(&Wanted::Match(choice)));
+        }
+    }
+
+    #[test]
+    fn a_scenario_is_played_with_its_first_seed_or_with_the_one_asked_for() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let path = assets.file("scenarios", "swap_figure_8");
+        let seed_of = |seed| {
+            let (plan, scenario) = Wanted::Scenario { path: path.clone(), seed }.plans(&assets).unwrap();
+            assert!(scenario.is_some() && plan.situation.is_some());
+            plan.seed
+        };
+        assert_eq!((seed_of(None), seed_of(Some(77))), (1, 77));
     }
 }

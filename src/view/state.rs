@@ -12,7 +12,7 @@ pub struct Selected(pub Option<RobotId>);
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Piloted(pub Option<RobotId>);
 
-/// What is drawn on top of the pitch.
+/// What is drawn on top of the pitch, and the panel below it.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlays {
     /// Motor-schema vectors of the selected robot.
@@ -25,6 +25,10 @@ pub struct Overlays {
     pub zones: bool,
     /// Roles and activities as text under the robots.
     pub labels: bool,
+    /// Claims, supports, locks and messages of both teams.
+    pub teamwork: bool,
+    /// The radio's panel.
+    pub radio: bool,
 }
 
 /// One of the [`Overlays`].
@@ -35,6 +39,8 @@ pub enum Overlay {
     Beliefs,
     Zones,
     Labels,
+    Teamwork,
+    Radio,
 }
 
 impl Overlays {
@@ -46,13 +52,23 @@ impl Overlays {
             Overlay::Beliefs => &mut self.beliefs,
             Overlay::Zones => &mut self.zones,
             Overlay::Labels => &mut self.labels,
+            Overlay::Teamwork => &mut self.teamwork,
+            Overlay::Radio => &mut self.radio,
         }
     }
 }
 
 impl Default for Overlays {
     fn default() -> Overlays {
-        Overlays { vectors: true, field_of_view: true, beliefs: true, zones: false, labels: true }
+        Overlays {
+            vectors: true,
+            field_of_view: true,
+            beliefs: true,
+            zones: false,
+            labels: true,
+            teamwork: true,
+            radio: false,
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use egui::{Align2, Color32, FontId, pos2, vec2};
 use super::calls::{Call, Trouble};
 use super::colours::{self, egui as paint};
 use super::layout::{FreeArea, PanelSystems};
+use super::session::Session;
 use super::state::{Pace, Screen};
 use super::style::{font, panel_frame};
 use crate::geometry::Attacking;
@@ -47,7 +48,7 @@ fn show_top_bar(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
     (state, strategies): (Res<MatchState>, Res<Strategies>),
-    (call, pace): (Res<Call>, Res<Pace>),
+    (call, pace, session): (Res<Call>, Res<Pace>, Res<Session>),
 ) -> Result {
     let panel = egui::Panel::top("top bar")
         .exact_size(HEIGHT)
@@ -66,7 +67,7 @@ fn show_top_bar(
         let score = pos2(middle, first);
         write(score - beside, Align2::RIGHT_CENTER, &home.to_string(), font(30.0), colours::PILOT);
         write(score + beside, Align2::LEFT_CENTER, &away.to_string(), font(30.0), colours::PILOT);
-        for team in Team::BOTH {
+        for team in Team::BOTH.into_iter().filter(|team| session.has(*team)) {
             let side = if team == Team::Home { -1.0 } else { 1.0 };
             let at = pos2(middle + side * SCORE_HALF, first);
             let room = rect.width() / 2.0 - SCORE_HALF - 16.0;

@@ -1,9 +1,11 @@
-//! What the inspector draws upon the pitch, around the selected robot, in metres of the pitch frame.
+//! What the inspector draws upon the pitch, around the selected robot and between team mates, in metres of the pitch frame.
 //!
 //! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::tints`].
 
 mod beliefs;
+mod messages;
 mod sight;
+mod teamwork;
 mod vectors;
 mod zones;
 
@@ -19,7 +21,13 @@ pub(super) fn plugin(app: &mut App) {
         .init_gizmo_group::<Strong>()
         .init_gizmo_group::<Fine>()
         .add_systems(Startup, set_widths)
-        .add_systems(PostUpdate, draw.after(TransformSystems::Propagate).run_if(in_state(Screen::Match)));
+        .add_systems(
+            PostUpdate,
+            (teamwork::draw, messages::draw, draw)
+                .chain()
+                .after(TransformSystems::Propagate)
+                .run_if(in_state(Screen::Match)),
+        );
 }
 
 /// Lines that lie under others.
@@ -59,7 +67,7 @@ fn draw(
     let placed =
         |entity, pose| shown.iter().find(|shown| shown.body == entity).map_or(pose, |shown| shown.pose);
     let Some(robot) = scene.looked_with(placed) else { return };
-    let pixel = camera.iter().next().and_then(|(camera, at)| metres_a_pixel(camera, at)).unwrap_or(0.01);
+    let pixel = pixel(&camera);
     let anchor = robot.ends.turn_pose(robot.pose);
     if overlays.zones {
         zones::draw(&mut pens, &robot, scene.pitch.half_size());
@@ -79,7 +87,11 @@ fn draw(
     }
 }
 
-/// Metres that a pixel of the screen covers.
+/// Metres that a pixel of the screen covers, and about a centimetre while there is no camera.
+fn pixel(camera: &Query<(&Camera, &GlobalTransform), With<Camera2d>>) -> f32 {
+    camera.iter().next().and_then(|(camera, at)| metres_a_pixel(camera, at)).unwrap_or(0.01)
+}
+
 fn metres_a_pixel(camera: &Camera, at: &GlobalTransform) -> Option<f32> {
     let there = |x: f32| camera.viewport_to_world_2d(at, Vec2::new(x, 0.0)).ok();
     Some(there(100.0)?.distance(there(0.0)?) / 100.0)

@@ -19,8 +19,8 @@ pub(super) fn draw(pens: &mut Pens, robot: &Looked, half_pitch: Vec2) {
     let (min, max) = (zone.min.max(-edge), zone.max.min(edge));
     pens.strong.rect_2d(robot.ends.turn((min + max) / 2.0), max - min, tint);
     let spec = robot.strategy.roles.get(activity.acting_as);
-    let Some(Part::Plays { homebases, .. }) = spec.map(|role| &role.part) else { return };
-    for home in homebases {
+    let Some(Part::Plays(play)) = spec.map(|role| &role.part) else { return };
+    for home in &play.homebases {
         let at = robot.ends.turn(*home);
         pens.strong.lineloop_2d(strokes::diamond(at, REACH), tint);
         if *home == activity.homebase {

@@ -1,0 +1,121 @@
+//! Who works with whom, upon the pitch: a ring in the ball's colour round whoever claims the ball, a line from each supporter
+//! to whom or what it supports, an amber ring round whoever is locked for a role swap.
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+
+use super::Pens;
+use crate::behaviour::Activity;
+use crate::geometry::Attacking;
+use crate::ids::RobotId;
+use crate::inspector::{strokes, tints};
+use crate::pitch::Pitch;
+use crate::referee::MatchState;
+use crate::robot::{OffPitch, Robot};
+use crate::strategy::Strategies;
+use crate::teamwork::{Swapping, TeamPicture};
+use crate::view::colours;
+use crate::view::shown::Shown;
+use crate::view::state::Overlays;
+
+/// Radii of the rings of a claim and of a lock, m.
+const CLAIM: f32 = 0.42;
+const LOCK: f32 = 0.47;
+/// Dashes of a support, m.
+const DASH: f32 = 0.09;
+
+#[derive(QueryData)]
+pub(super) struct Mate {
+    id: &'static RobotId,
+    robot: &'static Robot,
+    activity: &'static Activity,
+    picture: &'static TeamPicture,
+    swapping: Option<&'static Swapping>,
+    off_pitch: Has<OffPitch>,
+}
+
+/// Whom or what a robot supports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Supported {
+    Carrier,
+    OwnGoal,
+}
+
+/// What an activity supports, by its name.
+fn supported(activity: &str) -> Option<Supported> {
+    match activity {
+        "support" => Some(Supported::Carrier),
+        "enter_goal" | "cover_goal" => Some(Supported::OwnGoal),
+        _ => None,
+    }
+}
+
+pub(super) fn draw(
+    overlays: Res<Overlays>,
+    (state, strategies, pitch): (Res<MatchState>, Res<Strategies>, Res<Pitch>),
+    shown: Query<&Shown>,
+    mates: Query<Mate>,
+    mut pens: Pens,
+) {
+    if !overlays.teamwork {
+        return;
+    }
+    let place_of = |robot: RobotId| {
+        shown.iter().find(|shown| shown.robot == Some(robot)).map(|shown| shown.pose.position)
+    };
+    for mate in mates.iter().filter(|mate| !mate.off_pitch) {
+        let Some(at) = place_of(*mate.id) else { continue };
+        let works = !mate.robot.condition.crashed;
+        if works && mate.picture.has_ball {
+            pens.strong.circle_2d(at, CLAIM, colours::CLAIM).resolution(48);
+        }
+        if mate.swapping.is_some_and(|swapping| swapping.machine.lock().is_some()) {
+            pens.strong.circle_2d(at, LOCK, colours::LOCK).resolution(48);
+        }
+        let strategy = strategies.of(mate.id.team);
+        let activity = strategy.machines.get(mate.activity.machine(strategy));
+        let activity = activity.and_then(|machine| machine.states.get(mate.activity.state));
+        let goal = match activity.and_then(|activity| supported(&activity.name)).filter(|_| works) {
+            Some(Supported::Carrier) => {
+                let carrier = mate.picture.carrier.map(|(number, _)| RobotId { number, ..*mate.id });
+                carrier.and_then(place_of)
+            }
+            Some(Supported::OwnGoal) => Some(own_goal(&pitch, state.attacking(mate.id.team))),
+            None => None,
+        };
+        if let Some(goal) = goal {
+            draw_support(&mut pens, at, goal, tints::lighter(mate.id.team));
+        }
+    }
+}
+
+fn own_goal(pitch: &Pitch, ends: Attacking) -> Vec2 {
+    ends.turn(-pitch.goal_centre())
+}
+
+/// A dashed line with a tip at whom it serves.
+fn draw_support(pens: &mut Pens, from: Vec2, to: Vec2, tint: Color) {
+    let way = (to - from).normalize_or_zero();
+    let (from, to) = (from + CLAIM * way, to - CLAIM * way);
+    if (to - from).dot(way) <= DASH {
+        return;
+    }
+    for (a, b) in strokes::dashed_line(from, to, DASH) {
+        pens.strong.line_2d(a, b, tint);
+    }
+    for side in [1.0, -1.0] {
+        pens.strong.line_2d(to, to - 0.14 * way + side * 0.08 * way.perp(), tint);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn supporters_serve_the_carrier_or_their_goal() {
+        assert_eq!(supported("support"), Some(Supported::Carrier));
+        assert_eq!(supported("cover_goal"), Some(Supported::OwnGoal));
+        assert_eq!(supported("push"), None);
+    }
+}
