@@ -1,10 +1,12 @@
 //! What a tick costs: Hammerheads against ball chasers, eight Cyes with trailers, real sensing, on one core.
 //!
-//! Prints two figures: simulated seconds per second, and the ratio of a whole tick to a bare rapier2d pipeline that steps the
-//! same bodies, joints and shapes at the same rate, from situations of the same match.
+//! Prints three figures: simulated seconds per second; the ratio of a whole tick to a bare rapier2d pipeline that steps the
+//! same bodies, joints and shapes at the same rate, from situations of the same match; and what a tick of two teams that talk
+//! and swap roles costs beside one of the same teams without a word.
 
 use std::cell::Cell;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use bevy::ecs::system::SystemState;
@@ -17,6 +19,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use touchline::clock::TICK_HZ;
 use touchline::data::AssetFolder;
 use touchline::game::{Choice, Match, MatchPlan};
+use touchline::strategy::teamwork::Mechanism;
 
 /// Time spent and how often, summed over all samples.
 #[derive(Default)]
@@ -37,21 +40,40 @@ impl Spent {
     }
 }
 
-fn kick_off() -> Match {
+fn plan(team: Option<&str>) -> MatchPlan {
     let assets = AssetFolder::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets"));
-    let plan = MatchPlan::read(&assets, &Choice { seed: 1, ..Choice::default() });
-    Match::new(&plan.unwrap_or_else(|error| panic!("{error}")))
+    let team = team.map(str::to_owned);
+    let choice = Choice { seed: 1, home: team.clone(), away: team, ..Choice::default() };
+    MatchPlan::read(&assets, &choice).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The same match with teams that say nothing.
+fn silenced(mut plan: MatchPlan) -> MatchPlan {
+    for team in &mut plan.teams {
+        let teamwork = &mut Arc::make_mut(&mut team.strategy).teamwork;
+        for mechanism in [Mechanism::Messages, Mechanism::RoleSwap] {
+            teamwork.mechanisms = teamwork.mechanisms.without(mechanism);
+        }
+    }
+    plan
 }
 
 /// A match that starts anew when it is over.
-struct Season(Match);
+struct Season {
+    plan: MatchPlan,
+    game: Match,
+}
 
 impl Season {
+    fn new(plan: MatchPlan) -> Season {
+        Season { game: Match::new(&plan), plan }
+    }
+
     fn tick(&mut self) {
-        if self.0.is_over() {
-            self.0 = kick_off();
+        if self.game.is_over() {
+            self.game = Match::new(&self.plan);
         }
-        self.0.tick();
+        self.game.tick();
     }
 }
 
@@ -120,20 +142,13 @@ impl BareWorld {
 
 fn ticks(criterion: &mut Criterion) {
     let (whole, bare) = (Spent::default(), Spent::default());
-    let mut season = Season(kick_off());
-    criterion.bench_function("whole tick", |bencher| {
-        bencher.iter_custom(|times| {
-            let started = Instant::now();
-            (0..times).for_each(|_| season.tick());
-            whole.add(started.elapsed(), times)
-        });
-    });
-    let mut season = Season(kick_off());
+    measure(criterion, "whole tick", plan(None), &whole);
+    let mut season = Season::new(plan(None));
     let mut situations = Vec::new();
     for tick in 0..60 * 60 * 10 {
         season.tick();
         if tick % 600 == 599 {
-            situations.push(BareWorld::of(&mut season.0));
+            situations.push(BareWorld::of(&mut season.game));
         }
     }
     let mut next = situations.iter().cycle();
@@ -149,8 +164,23 @@ fn ticks(criterion: &mut Criterion) {
         });
     });
     let (tick, step) = (whole.mean_seconds(), bare.mean_seconds());
+    let (talking, silent) = (Spent::default(), Spent::default());
+    measure(criterion, "tick of teams that talk", plan(Some("hammerheads_swap")), &talking);
+    measure(criterion, "tick of teams that say nothing", silenced(plan(Some("hammerheads_swap"))), &silent);
     println!("simulated seconds per second: {:.0}", 1.0 / (tick * f64::from(TICK_HZ)));
     println!("whole tick {:.2} µs / bare rapier step {:.2} µs = {:.2}", tick * 1e6, step * 1e6, tick / step);
+    println!("with radio / without = {:.2}", talking.mean_seconds() / silent.mean_seconds());
+}
+
+fn measure(criterion: &mut Criterion, name: &str, plan: MatchPlan, spent: &Spent) {
+    let mut season = Season::new(plan);
+    criterion.bench_function(name, |bencher| {
+        bencher.iter_custom(|times| {
+            let started = Instant::now();
+            (0..times).for_each(|_| season.tick());
+            spent.add(started.elapsed(), times)
+        });
+    });
 }
 
 criterion_group!(benches, ticks);

@@ -48,10 +48,8 @@ fn watch(game: &mut Match) -> Links {
         game.tick();
         let world = game.world_mut();
         let mut flying = world.query::<(Entity, &Envelope, &Payload)>();
-        let now: BTreeMap<Entity, (RobotId, RobotId, u64)> = flying
-            .iter(world)
-            .map(|(entity, envelope, payload)| (entity, (envelope.from, envelope.to, payload.0.len() as u64)))
-            .collect();
+        let now: BTreeMap<Entity, Envelope> =
+            flying.iter(world).map(|(entity, envelope, _)| (entity, *envelope)).collect();
         for (from, to) in
             in_flight.iter().filter(|(entity, _)| !now.contains_key(entity)).map(|(_, link)| *link)
         {
