@@ -2,6 +2,7 @@
 
 mod command_line;
 mod play;
+mod policies;
 mod radio;
 mod repeatability;
 mod role_swap;

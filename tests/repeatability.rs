@@ -34,8 +34,7 @@ fn a_restarted_world_plays_the_same_match() {
 fn changing_a_weight_in_the_file_changes_the_play() {
     let plan = friendly(7, 0.5);
     let mut changed = plan.clone();
-    changed.teams[0].strategy =
-        changed_strategy("hammerheads_2001", "(0.5, \"round_teammates\")", "(0.6, \"round_teammates\")");
+    changed.teams[0].strategy = changed_strategy("hammerheads_2001", "(1.0, \"dock\")", "(0.9, \"dock\")");
     assert_ne!(digest_of(&plan), digest_of(&changed));
 }
 

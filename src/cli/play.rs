@@ -55,6 +55,7 @@ use crate::view::{Wanted, missing_for_a_window, open_window};
 
 /// What would be shown.
 #[cfg(not(feature = "window"))]
+#[expect(dead_code, reason = "a build without a window shows nothing")]
 enum Wanted {
     Match(crate::game::Choice),
     Scenario { path: std::path::PathBuf, seed: Option<u64> },

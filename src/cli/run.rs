@@ -11,6 +11,7 @@ use super::MatchOptions;
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
+use crate::radio::{LinkCounters, Traffic};
 use crate::referee::RuleBook;
 
 #[derive(Args, Debug, Default)]
@@ -35,6 +36,8 @@ struct Report {
     crowding: [f64; 2],
     /// Metres, all robots of a team together.
     driven: [f64; 2],
+    /// What a team's robots said to each other.
+    messages: [Messages; 2],
     /// Simulated seconds.
     seconds: f64,
     ticks: u64,
@@ -42,6 +45,25 @@ struct Report {
     ticks_per_second: f64,
     /// Equal digests mean equal matches.
     digest: String,
+}
+
+/// The packets of a team: a message to three team mates is three.
+#[derive(Debug, Serialize)]
+struct Messages {
+    sent: u64,
+    delivered: u64,
+    lost: u64,
+    late: u64,
+    bytes: u64,
+}
+
+impl Messages {
+    fn of(team: Team, traffic: &Traffic) -> Messages {
+        let links = traffic.links().filter(|(from, ..)| from.team == team);
+        let all: LinkCounters = links.map(|(.., counters)| *counters).sum();
+        let LinkCounters { sent, delivered, late, bytes, .. } = all;
+        Messages { sent, delivered, lost: all.lost_in_all(), late, bytes }
+    }
 }
 
 impl Run {
@@ -95,6 +117,7 @@ impl Report {
             possession: record.possession_shares(),
             crowding: record.crowding.map(|seconds| seconds / record.played.max(f64::EPSILON)),
             driven: Team::BOTH.map(|team| record.driven_by(team)),
+            messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
             seconds: clock.now(),
             ticks: clock.tick,
             ticks_per_second: clock.tick as f64 / wall_seconds,
@@ -108,6 +131,8 @@ impl Report {
         println!("possession  {:4.0} % : {:.0} %", 100.0 * self.possession[0], 100.0 * self.possession[1]);
         println!("crowding    {:4.0} % : {:.0} %", 100.0 * self.crowding[0], 100.0 * self.crowding[1]);
         println!("driven      {:4.0} m : {:.0} m", self.driven[0], self.driven[1]);
+        let [home, away] = &self.messages;
+        println!("messages    {:6} : {} ({} and {} lost)", home.sent, away.sent, home.lost, away.lost);
         let pace = self.ticks_per_second * self.seconds / self.ticks as f64;
         println!(
             "{:.0} s in {} ticks, {:.0} ticks/s, {pace:.0} times real time",
