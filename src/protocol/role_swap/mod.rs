@@ -2,7 +2,7 @@
 //! doubles messages.
 //!
 //! One robot, the initiator, asks the others for their locks (LOCK, ACKLOCK), tells each its new role (SWAP) and waits for
-//! the acknowledgements (ACKSWAP). Two versions share these four messages: [`paper`], as figure 7 has it, and [`hardened`],
+//! the acknowledgements (ACKSWAP). Two versions share these four messages: [`Paper`], as figure 7 has it, and [`Hardened`],
 //! which survives what the first does not. When to swap, and to what, is decided elsewhere.
 
 mod assignment;
