@@ -50,7 +50,9 @@ impl Display for Expectation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Expectation::Eventually { within, after, .. } if *after > 0.0 => {
-                write!(f, "between {after} s and {} s", after + within)?;
+                // To the millisecond, as sums of such numbers have more digits than people want.
+                let until = ((after + within) * 1000.0).round() / 1000.0;
+                write!(f, "between {after} s and {until} s")?;
             }
             Expectation::Eventually { within, .. } => write!(f, "by {within} s")?,
             Expectation::Always { from, until, .. } => write!(f, "always{}", Span(*from, *until))?,
@@ -140,7 +142,7 @@ fn limits<T: Display>(low: &str, from: Option<T>, high: &str, to: Option<T>, uni
 impl Packets {
     fn words(&self, f: &mut Formatter<'_>, verb: &str) -> fmt::Result {
         let was = if self.at_least == 1 { "was" } else { "were" };
-        write!(f, "at least {} {:?} {was} {verb}", self.at_least, self.kind)?;
+        write!(f, "at least {} {} {was} {verb}", self.at_least, self.kind)?;
         if let Some(from) = self.from {
             write!(f, " from {from}")?;
         }
@@ -256,7 +258,7 @@ mod tests {
             ("InZone(what: Ball, zone: PenaltyArea(Away))", "the ball is in away's penalty area"),
             (
                 r#"Sent(kind: Lock, from: "home 1", to: "home 2", at_least: 2, since: 3)"#,
-                "at least 2 Lock were sent from home 1 to home 2 since 3 s",
+                "at least 2 LOCK were sent from home 1 to home 2 since 3 s",
             ),
             (r#"Holder(robot: "home 1", seen_by: "home 2")"#, "home 1 holds the ball in the eyes of home 2"),
             (r#"RolesAre(Home, {0: "g", 1: "h"})"#, "home 0 is g and home 1 is h"),
