@@ -1,4 +1,5 @@
-//! Who is who: the two teams and their robots, with a total order that every loop whose order matters uses.
+//! Who is who: the two teams and their robots, with a total order that every loop whose order matters uses, and the mark of
+//! what belongs to a match.
 
 use std::fmt;
 
@@ -97,6 +98,11 @@ impl From<RobotId> for String {
         id.to_string()
     }
 }
+
+/// On every entity that belongs to the match being played and goes with it.
+#[derive(Component, Clone, Copy, Debug, Default)]
+#[component(immutable)]
+pub struct MatchEntity;
 
 #[cfg(test)]
 mod tests {

@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use crate::messages::{GoalieBehaviour, GoalieNews, Side};
     use crate::perception::fixture::Situation;
-    use crate::strategy::language::RoleRef;
+    use crate::strategy::RoleRef;
 
     const HOMES: [Vec2; 3] = [Vec2::new(0.0, 0.0), Vec2::new(2.5, 1.25), Vec2::new(2.5, -1.25)];
 

@@ -68,13 +68,25 @@ fn place_robots(
     mut robots: Query<Carried, Without<Ball>>,
 ) {
     for call in &calls.0 {
+        let kick_off = match *call {
+            Decision::RobotsPlaced { kick_off } => Some(Team::BOTH.map(|team| {
+                let in_team = robots.iter().filter(|robot| robot.id.team == team);
+                let mut roles: Vec<(u8, usize)> =
+                    in_team.map(|robot| (robot.id.number, robot.role.0)).collect();
+                roles.sort_unstable();
+                kick_off_poses(strategies.of(team), &roles, kick_off == team)
+            })),
+            _ => None,
+        };
         // In order, since Rapier remembers the order in which bodies are touched.
         for mut robot in robots.iter_mut().sort::<&RobotId>() {
             let id = *robot.id;
             let ends = state.attacking(id.team);
             let at = match *call {
-                Decision::RobotsPlaced { kick_off } if !state.is_removed(id) => {
-                    ends.turn_pose(kick_off_pose(strategies.of(id.team), id, kick_off))
+                Decision::RobotsPlaced { .. } if !state.is_removed(id) => {
+                    let poses = kick_off.as_ref().map(|both| &both[id.team.index()]);
+                    let own = poses.and_then(|poses| poses.iter().find(|(number, _)| *number == id.number));
+                    ends.turn_pose(own.map_or_else(Pose::default, |(_, pose)| *pose))
                 }
                 Decision::RobotReturned { robot, at } if robot == id => at,
                 Decision::RobotRemoved { robot, .. } if robot == id => beside_the_pitch(&pitch, id),
@@ -114,11 +126,20 @@ impl CarriedItem<'_, '_> {
     }
 }
 
-/// A robot's place at a kick-off, in its team frame, looking at the opponents' goal.
-fn kick_off_pose(strategy: &Strategy, id: RobotId, kick_off: Team) -> Pose {
-    let places = if kick_off == id.team { &strategy.kick_off.ours } else { &strategy.kick_off.theirs };
-    let place = places.get(usize::from(id.number)).copied().unwrap_or_default();
-    Pose { position: place, heading: 0.0 }
+/// The robots' places at a kick-off, in their team frame, looking at the opponents' goal, by number: each takes the place of its
+/// role. Where robots share one, those that find theirs taken share out what is left.
+fn kick_off_poses(strategy: &Strategy, roles: &[(u8, usize)], ours: bool) -> Vec<(u8, Pose)> {
+    let places = if ours { &strategy.kick_off.ours } else { &strategy.kick_off.theirs };
+    let mut free: Vec<usize> = (0..places.len()).collect();
+    let mut take = |fits: &dyn Fn(usize) -> bool| {
+        let found = free.iter().position(|place| fits(*place))?;
+        Some(free.remove(found))
+    };
+    let own: Vec<Option<usize>> =
+        roles.iter().map(|(_, role)| take(&|place| strategy.players.get(place) == Some(role))).collect();
+    let taken = own.into_iter().map(|own| own.or_else(|| take(&|_| true)));
+    let poses = taken.map(|place| place.and_then(|place| places.get(place)).copied().unwrap_or_default());
+    roles.iter().zip(poses).map(|((number, _), at)| (*number, Pose { position: at, heading: 0.0 })).collect()
 }
 
 /// Where a robot waits before the match, and after it was taken off.
@@ -126,4 +147,23 @@ pub(super) fn beside_the_pitch(pitch: &Pitch, id: RobotId) -> Pose {
     let side = if id.team == Team::Home { -1.0 } else { 1.0 };
     let y = pitch.half_size().y + pitch.walls.thickness + 0.6;
     Pose::new(side * (1.0 + f32::from(id.number)), y, -std::f32::consts::FRAC_PI_2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::strategy::KickOff;
+
+    #[test]
+    fn robots_take_the_places_of_their_roles_and_share_out_what_nobody_takes() {
+        let places = [-1.0, -2.0, -3.0].map(|x| Vec2::new(x, 0.0));
+        let kick_off = KickOff { ours: places.to_vec(), theirs: places.to_vec() };
+        let strategy = Strategy { players: vec![5, 6, 7], kick_off, ..crate::perception::fixture::idle() };
+        let x = |roles: &[(u8, usize)]| -> Vec<f32> {
+            kick_off_poses(&strategy, roles, true).iter().map(|(_, pose)| pose.position.x).collect()
+        };
+        assert_eq!(x(&[(0, 5), (1, 6), (2, 7)]), [-1.0, -2.0, -3.0]);
+        assert_eq!(x(&[(0, 7), (1, 6), (2, 5)]), [-3.0, -2.0, -1.0]);
+        assert_eq!(x(&[(0, 7), (1, 7), (2, 5)]), [-3.0, -2.0, -1.0], "two with one role");
+    }
 }

@@ -12,7 +12,7 @@ pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
 pub use situation::{Placed, Situation};
 
 use crate::clock::Clock;
-use crate::ids::Team;
+use crate::ids::{MatchEntity, Team};
 use crate::physics::open_world;
 use crate::radio::{Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
 use crate::record::Record;
@@ -26,11 +26,6 @@ use spawn::{spawn_ball, spawn_planned};
 pub(super) fn plugin(app: &mut App) {
     carry::plugin(app);
 }
-
-/// On every entity that belongs to the match being played and goes with it.
-#[derive(Component, Clone, Copy, Debug, Default)]
-#[component(immutable)]
-pub struct MatchEntity;
 
 /// Ends the match in this world, if there is one, and starts another from the beginning.
 pub fn start_match(world: &mut World, plan: &MatchPlan) {

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
 
+use super::MatchPlan;
 use super::carry::beside_the_pitch;
-use super::{MatchEntity, MatchPlan};
 use crate::ball::{Ball, BallDice, Rolling};
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
-use crate::ids::RobotId;
+use crate::ids::{MatchEntity, RobotId};
 use crate::motor::{Contributions, MotorDice, SteeringIntent};
 use crate::perception::Memory;
 use crate::physics::register_bodies;

@@ -16,22 +16,11 @@ use smallvec::SmallVec;
 
 use super::conditions::{Conditions, Obstacle};
 use super::faults::{Act, FaultRules};
+use super::packet::Packet;
 use super::preset::{Budget, Radio, SharedBy};
 use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::messages::MessageKind;
 use crate::rng::{Dice, Seed};
-
-/// One delivery of a message to one receiver, as the radio sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Packet {
-    pub kind: MessageKind,
-    pub from: RobotId,
-    pub to: RobotId,
-    pub bytes: usize,
-    /// Between the two robots, m.
-    pub distance: f32,
-}
 
 /// What becomes of a packet. One that is lost has no copies, any other has one or more.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

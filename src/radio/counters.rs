@@ -9,7 +9,8 @@ use std::ops::AddAssign;
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
-use super::channel::{Fate, Loss, Packet};
+use super::channel::{Fate, Loss};
+use super::packet::Packet;
 use crate::ids::RobotId;
 
 /// The packets of one directed link, or the sum over several.

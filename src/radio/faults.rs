@@ -9,7 +9,7 @@ use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::channel::Packet;
+use super::packet::Packet;
 use crate::ids::RobotId;
 use crate::messages::MessageKind;
 

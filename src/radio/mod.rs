@@ -7,6 +7,7 @@ mod counters;
 mod counts;
 mod faults;
 mod log;
+mod packet;
 mod preset;
 #[cfg(test)]
 mod tests;
@@ -15,18 +16,18 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-pub use channel::{Channel, Fate, Loss, Packet};
+pub use channel::{Channel, Fate, Loss};
 pub use conditions::{Conditions, Partition};
 pub use counters::{LinkCounters, Traffic};
 pub use counts::MessageCounts;
 pub use faults::{FaultRule, FaultRules};
 pub use log::{Outcome, RadioLog, Transmission};
+pub use packet::Packet;
 pub use preset::Radio;
 
 use crate::clock::Clock;
-use crate::game::MatchEntity;
 use crate::geometry::Pose;
-use crate::ids::RobotId;
+use crate::ids::{MatchEntity, RobotId};
 use crate::messages::{Bytes, Message, MessageKind};
 use crate::protocol::role_swap::Number;
 use crate::robot::Robot;

@@ -7,29 +7,9 @@
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::role_ref::RoleRef;
 use super::teamwork::Mechanism;
 use crate::geometry::Zone;
-use crate::protocol::role_swap::RoleIndex;
-
-/// A role by its name, and its place among the strategy's roles once the strategy is loaded.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "String", into = "String")]
-pub struct RoleRef {
-    pub name: String,
-    pub index: RoleIndex,
-}
-
-impl From<String> for RoleRef {
-    fn from(name: String) -> RoleRef {
-        RoleRef { name, index: 0 }
-    }
-}
-
-impl From<RoleRef> for String {
-    fn from(role: RoleRef) -> String {
-        role.name
-    }
-}
 
 /// One place on the field, or nowhere while it is unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -8,6 +8,7 @@ mod display;
 mod file;
 pub mod language;
 mod resolve;
+mod role_ref;
 pub mod teamwork;
 
 use std::path::Path;
@@ -20,7 +21,8 @@ use crate::data::{DataError, Source};
 use crate::geometry::Zone;
 use crate::ids::Team;
 pub use file::{KickOff, StrategyFile};
-use language::{Feature, Point, RoleRef, Schema};
+use language::{Feature, Point, Schema};
+pub use role_ref::RoleRef;
 use teamwork::Teamwork;
 
 /// A strategy that can be played: every name is an index, every number is sound.

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::language::RoleRef;
+use super::role_ref::RoleRef;
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
 use crate::teamwork::policy::{Cast, Policy};
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::messages::HaveBall;
-use crate::strategy::language::RoleRef;
+use crate::strategy::RoleRef;
 use crate::strategy::teamwork::{Mechanism, TeammatesBy};
 
 fn role(index: u8) -> RoleRef {

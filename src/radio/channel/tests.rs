@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::ids::Team;
+use crate::messages::MessageKind;
 use crate::radio::conditions::Partition;
 use crate::radio::faults::{FaultRule, Which};
 use crate::radio::preset::{LateTail, Latency, LossModel};

@@ -3,7 +3,8 @@
 
 use super::{Resolver, Result, unknown};
 use crate::data::Field;
-use crate::strategy::language::{Feature, Point, Points, RoleRef, Schema, ZoneName};
+use crate::strategy::RoleRef;
+use crate::strategy::language::{Feature, Point, Points, Schema, ZoneName};
 
 impl Resolver<'_> {
     pub(super) fn point(&mut self, point: &mut Point, at: &Field) -> Result<()> {
