@@ -137,7 +137,7 @@ impl Form {
         }
         let able = fault.is_none() && !self.offers.is_empty();
         let foot = egui::Layout::bottom_up(egui::Align::Min);
-        let start = |ui: &mut egui::Ui| super::menu::big_button(ui, "Start").clicked();
+        let start = |ui: &mut egui::Ui| super::style::big_button(ui, "Start").clicked();
         let clicked = ui.with_layout(foot, |ui| ui.add_enabled_ui(able, start).inner).inner;
         clicked.then(|| self.choice())
     }

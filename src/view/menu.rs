@@ -170,17 +170,11 @@ fn picture_card(ui: &mut egui::Ui, title: &str, picture: Picture, text: &str, bu
         paint_picture(ui.painter(), rect, picture);
         ui.add_space(6.0);
         ui.label(RichText::new(text).size(15.0).color(paint(colours::TEXT)));
-        ui.with_layout(egui::Layout::bottom_up(egui::Align::Min), |ui| big_button(ui, button).clicked()).inner
+        ui.with_layout(egui::Layout::bottom_up(egui::Align::Min), |ui| {
+            super::style::big_button(ui, button).clicked()
+        })
+        .inner
     })
-}
-
-/// The button that a card is about.
-pub fn big_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
-    let text = RichText::new(text).size(17.0).color(Color32::WHITE);
-    let text = (egui::Atom::grow(), text, egui::Atom::grow());
-    ui.add(
-        egui::Button::new(text).fill(paint(colours::ACCENT).gamma_multiply(0.8)).min_size(vec2(120.0, 36.0)),
-    )
 }
 
 /// A pitch to rest the eyes on: stripes, a line and a circle.

@@ -56,7 +56,7 @@ impl ScenarioList {
             }
         });
         let foot = egui::Layout::bottom_up(egui::Align::Min);
-        let button = |ui: &mut egui::Ui| super::menu::big_button(ui, "Play").clicked();
+        let button = |ui: &mut egui::Ui| super::style::big_button(ui, "Play").clicked();
         asked |= ui.with_layout(foot, button).inner;
         let entry = self.chosen.and_then(|index| self.entries.get(index)).filter(|_| asked)?;
         Some(Wanted::Scenario { path: entry.path.clone(), seed: None })

@@ -13,6 +13,17 @@ pub(super) fn plugin(app: &mut App) {
 /// The smallest type anywhere, in points.
 pub const SMALL: f32 = 13.0;
 
+/// The button that a card is about.
+pub fn big_button(ui: &mut egui::Ui, text: &str) -> egui::Response {
+    let text = egui::RichText::new(text).size(17.0).color(egui::Color32::WHITE);
+    let text = (egui::Atom::grow(), text, egui::Atom::grow());
+    ui.add(
+        egui::Button::new(text)
+            .fill(paint(colours::ACCENT).gamma_multiply(0.8))
+            .min_size(egui::vec2(120.0, 36.0)),
+    )
+}
+
 /// Type of a size in points.
 pub fn font(size: f32) -> egui::FontId {
     egui::FontId::proportional(size.max(SMALL))
