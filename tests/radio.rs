@@ -178,3 +178,14 @@ fn the_hammerheads_beat_the_ball_chasers_and_crowd_the_ball_less() {
     assert!(goals[0] > goals[1], "{goals:?}");
     assert!(crowd[0] < crowd[1], "{crowd:?}");
 }
+
+/// A match runs for hours, and millions of messages come and go.
+#[test]
+fn a_match_does_not_keep_account_of_messages_that_are_gone() {
+    let mut game = Match::new(&talkative("perfect", 2));
+    for _ in 0..1200 {
+        game.tick();
+    }
+    assert!(game.world().resource::<Traffic>().total().delivered > 1000);
+    assert_eq!(game.world().removed::<Envelope>().count(), 0);
+}

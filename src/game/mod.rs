@@ -80,7 +80,10 @@ impl Match {
 
     /// Plays one tick.
     pub fn tick(&mut self) {
-        self.app.world_mut().run_schedule(Tick);
+        let world = self.app.world_mut();
+        world.run_schedule(Tick);
+        // Otherwise the world remembers every message that has ever been delivered.
+        world.clear_trackers();
     }
 
     /// Whether the last half is over.
