@@ -4,6 +4,7 @@
 //! a [`DataError`] that names the file, the line, the column and the [`Field`]. What a file may say is not checked
 //! here: the module that owns the type validates it and reports through [`Source::error_at`].
 
+mod bounds;
 mod error;
 mod field;
 mod folder;
@@ -12,6 +13,7 @@ mod scan;
 mod source;
 mod words;
 
+pub use bounds::{Bound, Bounds, Fault, first_fault};
 pub use error::{DataError, no_such};
 pub use field::{Field, Segment};
 pub use folder::AssetFolder;

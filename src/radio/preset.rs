@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::data::Bounds;
+
 /// The radio that the robots of a match share.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -179,18 +181,10 @@ impl Radio {
                 ("budget.burst", budget.burst),
             ]);
         }
-        let faulty = |(_, value): &(&str, f32), sound: fn(f32) -> bool| !(value.is_finite() && sound(*value));
-        let find = |list: Vec<(&'static str, f32)>, sound: fn(f32) -> bool, rule: &str| {
-            let (field, value) = list.into_iter().find(|entry| faulty(entry, sound))?;
-            Some((field, format!("must be {rule}, not {value}")))
-        };
-        find(positive, |v| v > 0.0, "a positive number")
-            .or_else(|| find(at_least_0, |v| v >= 0.0, "at least 0"))
-            .or_else(|| find(shares, |v| (0.0..=1.0).contains(&v), "between 0 and 1"))
-            .or_else(|| {
-                let late = self.late.filter(|late| late.max < late.min)?;
-                Some(("late.max", format!("must be at least late.min, {}, not {}", late.min, late.max)))
-            })
+        Bounds { positive, at_least_0, shares }.fault().or_else(|| {
+            let late = self.late.filter(|late| late.max < late.min)?;
+            Some(("late.max", format!("must be at least late.min, {}, not {}", late.min, late.max)))
+        })
     }
 }
 

@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::data::Bounds;
+
 /// Eyes, localisation, odometry and memory of a robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -108,13 +110,6 @@ impl Sensing {
                 ("eyes.camera.false_positive", camera.false_positive),
             ]);
         }
-        let faulty = |(_, value): &(&str, f32), sound: fn(f32) -> bool| !(value.is_finite() && sound(*value));
-        let find = |list: Vec<(&'static str, f32)>, sound: fn(f32) -> bool, rule: &str| {
-            let (field, value) = list.into_iter().find(|entry| faulty(entry, sound))?;
-            Some((field, format!("must be {rule}, not {value}")))
-        };
-        find(positive, |v| v > 0.0, "a positive number")
-            .or_else(|| find(at_least_0, |v| v >= 0.0, "at least 0"))
-            .or_else(|| find(shares, |v| (0.0..=1.0).contains(&v), "between 0 and 1"))
+        Bounds { positive, at_least_0, shares }.fault()
     }
 }

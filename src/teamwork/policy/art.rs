@@ -10,10 +10,10 @@
 use serde::{Deserialize, Serialize};
 use smallvec::smallvec;
 
-use super::check::{Bound, Fault, first_fault};
 use super::members::{Bidder, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
 use super::{Cast, ColumnValues, Duty, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 use crate::geometry::{angle, wrap_angle};
 use crate::protocol::role_swap::{Number, Reassignment};
 
@@ -95,7 +95,7 @@ impl Art {
             (self.leave >= self.enter).then(|| ("leave", reason()))
         };
         let numbers = || {
-            first_fault(&[
+            first_fault([
                 ("half", self.half, Bound::Positive),
                 ("turning", self.turning, Bound::AtLeast0),
                 ("enter", self.enter, Bound::Positive),

@@ -7,9 +7,9 @@
 use serde::{Deserialize, Serialize};
 use smallvec::smallvec;
 
-use super::check::{Bound, Fault, first_fault};
 use super::members::{Distribution, Member, me, members, reassignment};
 use super::{Cast, Duty, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
 /// The rule as it was played: who becomes what depends on the roles alone.
@@ -55,7 +55,7 @@ impl CaseBased {
     }
 
     pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault(&[("beyond", self.beyond, Bound::Share)])
+        first_fault([("beyond", self.beyond, Bound::Share)])
     }
 }
 
@@ -80,7 +80,7 @@ impl ClosestBecomesForward {
     }
 
     pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault(&[("beyond", self.beyond, Bound::Share)])
+        first_fault([("beyond", self.beyond, Bound::Share)])
     }
 }
 

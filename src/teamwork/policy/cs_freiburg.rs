@@ -7,10 +7,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::check::{Bound, Fault, first_fault};
 use super::members::{Member, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
 use super::{Cast, ColumnValues, Duty, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
 /// Columns: forward (the main attacker), floater (the helping one), halfback (the defender).
@@ -76,7 +76,7 @@ impl CsFreiburg {
 
     pub(super) fn fault(&self) -> Option<Fault> {
         self.places.fault().or_else(|| {
-            first_fault(&[
+            first_fault([
                 ("half", self.half, Bound::Positive),
                 ("margin", self.margin, Bound::AtLeast0),
                 ("max_age", self.max_age, Bound::Positive),

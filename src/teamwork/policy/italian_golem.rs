@@ -7,10 +7,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::check::{Bound, Fault, first_fault};
 use super::members::{Members, bidders, by_importance, first_to_gain, me, members, reassignment};
 use super::places::{Places, ball, nearness};
 use super::{Cast, ColumnValues, Duty, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
 /// Columns: acquire, support, defend.
@@ -67,7 +67,7 @@ impl ItalianGolem {
 
     pub(super) fn fault(&self) -> Option<Fault> {
         self.places.fault().or_else(|| {
-            first_fault(&[
+            first_fault([
                 ("half", self.half, Bound::Positive),
                 ("possession", self.possession, Bound::AtLeast0),
                 ("lead", self.lead, Bound::AtLeast0),

@@ -13,7 +13,6 @@
 
 mod art;
 mod case_based;
-mod check;
 mod cs_freiburg;
 mod italian_golem;
 mod members;

@@ -7,10 +7,10 @@ use pathfinding::kuhn_munkres::kuhn_munkres_min;
 use pathfinding::matrix::Matrix;
 use serde::{Deserialize, Serialize};
 
-use super::check::{Bound, Fault, first_fault};
 use super::members::{Distribution, Member, duties, members, reassignment};
 use super::places::{Places, ball};
 use super::{Cast, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,7 +55,7 @@ impl Optimal {
 
     pub(super) fn fault(&self) -> Option<Fault> {
         self.places.fault().or_else(|| {
-            first_fault(&[("min_gain", self.min_gain, Bound::AtLeast0), ("rest", self.rest, Bound::AtLeast0)])
+            first_fault([("min_gain", self.min_gain, Bound::AtLeast0), ("rest", self.rest, Bound::AtLeast0)])
         })
     }
 }

@@ -4,8 +4,8 @@
 use bevy::prelude::Vec2;
 use serde::{Deserialize, Serialize};
 
-use super::check::{Bound, Fault, first_fault};
 use super::{Duty, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 
 /// The places, relative to ball and goals.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,7 +42,7 @@ impl Places {
     }
 
     pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault(&[
+        first_fault([
             ("places.standoff", self.standoff, Bound::AtLeast0),
             ("places.behind", self.behind, Bound::AtLeast0),
             ("places.aside", self.aside, Bound::AtLeast0),

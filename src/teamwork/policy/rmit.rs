@@ -7,10 +7,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::check::{Bound, Fault, first_fault};
 use super::members::{by_importance, first_to_gain, members, reassignment};
 use super::places::ball;
 use super::{Cast, Duty, Knowledge};
+use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,7 +49,7 @@ impl Rmit {
     }
 
     pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault(&[
+        first_fault([
             ("bonus", self.bonus, Bound::AtLeast0),
             ("wrong_side", self.wrong_side, Bound::AtLeast0),
             ("rest", self.rest, Bound::AtLeast0),
