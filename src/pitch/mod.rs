@@ -43,6 +43,9 @@ pub struct PenaltyArea {
 }
 
 /// The walls around the pitch and behind the goals.
+///
+/// With a margin the lines are only painted: the walls around the pitch become a fence, so far away that the ball rolls
+/// over the lines and robots step across them, and the goals stand free with walls of their own at their sides and back.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Walls {
@@ -50,12 +53,20 @@ pub struct Walls {
     pub friction: f32,
     /// Share of the normal speed that is kept, 0 to 1.
     pub restitution: f32,
+    /// Carpet between the lines and the inside of the fence, on all four sides; 0 where the walls are the lines.
+    #[serde(default)]
+    pub margin: f32,
 }
 
 impl Pitch {
     /// Half the length and half the width.
     pub fn half_size(&self) -> Vec2 {
         Vec2::new(self.length / 2.0, self.width / 2.0)
+    }
+
+    /// Carpet beyond the lines, up to the fence; 0 on a pitch whose lines are walls.
+    pub fn margin(&self) -> f32 {
+        self.walls.margin
     }
 
     /// The centre of the eastern goal mouth; the western one is its mirror image.
@@ -101,6 +112,13 @@ impl Pitch {
                 format!("{} m does not fit into a width of {} m", self.goal.width, self.width),
             ));
         }
+        let margin = self.walls.margin;
+        let goals_end = self.goal.depth + self.walls.thickness;
+        if margin != 0.0 && !(margin.is_finite() && margin > goals_end) {
+            let reason =
+                format!("must be 0, or more than goals and their walls need, {goals_end} m, not {margin}");
+            return Some(("walls.margin", reason));
+        }
         if !(0.0..=1.0).contains(&self.walls.restitution) {
             return Some((
                 "walls.restitution",
@@ -115,5 +133,44 @@ impl Pitch {
         }
         let outside = self.penalty_spots.iter().find(|spot| !spot.abs().cmplt(self.half_size()).all());
         outside.map(|spot| ("penalty_spots", format!("({}, {}) is outside the pitch", spot.x, spot.y)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WALLS: Walls = Walls { thickness: 0.05, friction: 0.2, restitution: 0.6, margin: 0.0 };
+
+    fn pitch(walls: Walls) -> Pitch {
+        Pitch {
+            name: "Test".into(),
+            length: 5.4,
+            width: 4.0,
+            goal: Goal { width: 0.8, depth: 0.3 },
+            penalty_area: PenaltyArea { depth: 0.65, width: 1.3 },
+            centre_circle_radius: 0.18,
+            penalty_spots: vec![Vec2::ZERO],
+            walls,
+        }
+    }
+
+    #[test]
+    fn a_margin_has_room_for_the_goals() {
+        assert_eq!(pitch(WALLS).fault(), None);
+        assert_eq!(pitch(Walls { margin: 1.0, ..WALLS }).fault(), None);
+        for margin in [-1.0, 0.3, 0.35, f32::NAN, f32::INFINITY] {
+            assert_eq!(pitch(Walls { margin, ..WALLS }).fault().unwrap().0, "walls.margin", "{margin}");
+        }
+    }
+
+    #[test]
+    fn the_field_is_within_its_lines_with_a_margin_and_without() {
+        for margin in [0.0, 1.0] {
+            let pitch = pitch(Walls { margin, ..WALLS });
+            assert!(pitch.holds(Vec2::new(2.9, 0.0), 0.0), "in the goal");
+            assert!(!pitch.holds(Vec2::new(2.9, 1.0), 0.0) && !pitch.holds(Vec2::new(0.0, 2.1), 0.0));
+            assert_eq!(pitch.margin(), margin);
+        }
     }
 }

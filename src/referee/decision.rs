@@ -16,6 +16,10 @@ use crate::ids::{RobotId, Team};
 pub enum PlacementReason {
     KickOff,
     NoProgress,
+    /// The ball was out, by the team that touched it last, if that is known.
+    ThrowIn {
+        against: Option<Team>,
+    },
 }
 
 /// Why the referee takes a robot off the field.
@@ -23,6 +27,26 @@ pub enum PlacementReason {
 pub enum RemovalReason {
     /// It stayed too long in its own penalty area together with a teammate.
     SecondDefender,
+    /// It was in its own penalty area without being the goalkeeper.
+    IllegalDefender,
+    /// It held the ball too long or carried it too far.
+    BallHolding,
+    /// It pushed an opponent too long.
+    Pushing,
+    LeftTheField,
+    /// It was nearest to a ball that was stuck among robots, and goes to the half-way line.
+    LocalStuck,
+    /// A referee's program outside of the simulation took it off.
+    RefereeBox,
+}
+
+/// Why a ball in the goal does not count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoGoalReason {
+    /// It was shot at the kick-off, and no robot of the team touched it outside the centre circle.
+    KickOffShot,
+    /// A robot of the team carried it in.
+    Held,
 }
 
 /// One decision, in the order in which the referee makes them. Places are in the pitch frame, in metres.
@@ -33,6 +57,15 @@ pub enum Decision {
         by: Team,
         score: [u32; 2],
     },
+    /// The ball is in the goal that this team attacks, and it does not count.
+    NoGoal {
+        by: Team,
+        reason: NoGoalReason,
+    },
+    /// Nobody has touched the ball for too long, and this team kicks off.
+    Untouched {
+        kick_off: Team,
+    },
     /// The ball lies still at this point.
     BallPlaced {
         at: Vec2,
@@ -41,6 +74,11 @@ pub enum Decision {
     /// All robots on the field are put on their kick-off positions by hand, as people did in 2001.
     RobotsPlaced {
         kick_off: Team,
+    },
+    /// One robot is put somewhere by hand, at rest: before it walks to its place, or since it stood wrongly for a kick-off.
+    RobotPlaced {
+        robot: RobotId,
+        at: Pose,
     },
     /// The robot is off the field until it returns.
     RobotRemoved {
@@ -66,17 +104,41 @@ impl fmt::Display for Decision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Decision::Goal { by, score: [home, away] } => write!(f, "Goal for {by}, {home}:{away}"),
+            Decision::NoGoal { by, reason } => {
+                let reason = match reason {
+                    NoGoalReason::KickOffShot => "shot at the kick-off",
+                    NoGoalReason::Held => "the ball was held",
+                };
+                write!(f, "No goal for {by}: {reason}")
+            }
+            Decision::Untouched { kick_off } => write!(f, "Nobody touches the ball: kick-off for {kick_off}"),
             Decision::BallPlaced { at, reason: PlacementReason::KickOff } => {
                 write!(f, "Kick-off: ball to {}", Spot(*at))
             }
             Decision::BallPlaced { at, reason: PlacementReason::NoProgress } => {
                 write!(f, "No progress: ball to {}", Spot(*at))
             }
+            Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: Some(team) } } => {
+                write!(f, "Out by {team}: ball to {}", Side(*at))
+            }
+            Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: None } } => {
+                write!(f, "Out: ball to {}", Side(*at))
+            }
             Decision::RobotsPlaced { kick_off } => {
                 write!(f, "Kick-off for {kick_off}: robots to their places")
             }
-            Decision::RobotRemoved { robot, reason: RemovalReason::SecondDefender } => {
-                write!(f, "{} must leave: second defender", Shirt(*robot))
+            Decision::RobotPlaced { robot, .. } => write!(f, "{} is put on its place", Shirt(*robot)),
+            Decision::RobotRemoved { robot, reason } => {
+                let reason = match reason {
+                    RemovalReason::SecondDefender => "second defender",
+                    RemovalReason::IllegalDefender => "illegal defender",
+                    RemovalReason::BallHolding => "ball holding",
+                    RemovalReason::Pushing => "pushing",
+                    RemovalReason::LeftTheField => "it left the field",
+                    RemovalReason::LocalStuck => "the ball is stuck",
+                    RemovalReason::RefereeBox => "the referee box took it off",
+                };
+                write!(f, "{} must leave: {reason}", Shirt(*robot))
             }
             Decision::RobotReturned { robot, .. } => write!(f, "{} returns", Shirt(*robot)),
             Decision::PhaseChanged(phase) => f.write_str(match phase {
@@ -130,6 +192,20 @@ impl fmt::Display for Spot {
     }
 }
 
+/// A point near a side line, named by its half and side.
+struct Side(Vec2);
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let side = if self.0.y > 0.0 { "upper" } else { "lower" };
+        match self.0.x {
+            x if x > ON_AXIS => write!(f, "the {side} side in the right half"),
+            x if x < -ON_AXIS => write!(f, "the {side} side in the left half"),
+            _ => write!(f, "the {side} side on the half-way line"),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,7 +214,31 @@ mod tests {
     fn a_spectator_can_read_every_decision() {
         let robot = RobotId::new(Team::Away, 2);
         let stuck = |x, y| Decision::BallPlaced { at: Vec2::new(x, y), reason: PlacementReason::NoProgress };
+        let out = |x, y, against| {
+            let reason = PlacementReason::ThrowIn { against };
+            Decision::BallPlaced { at: Vec2::new(x, y), reason }
+        };
+        let off = |reason| Decision::RobotRemoved { robot, reason };
         let said = [
+            (out(-1.0, 1.6, Some(Team::Away)), "Out by away: ball to the upper side in the left half"),
+            (out(1.7, -1.1, None), "Out: ball to the lower side in the right half"),
+            (out(0.0, 1.6, Some(Team::Home)), "Out by home: ball to the upper side on the half-way line"),
+            (
+                Decision::NoGoal { by: Team::Home, reason: NoGoalReason::KickOffShot },
+                "No goal for home: shot at the kick-off",
+            ),
+            (
+                Decision::NoGoal { by: Team::Away, reason: NoGoalReason::Held },
+                "No goal for away: the ball was held",
+            ),
+            (Decision::Untouched { kick_off: Team::Home }, "Nobody touches the ball: kick-off for home"),
+            (Decision::RobotPlaced { robot, at: Pose::default() }, "Away 2 is put on its place"),
+            (off(RemovalReason::IllegalDefender), "Away 2 must leave: illegal defender"),
+            (off(RemovalReason::BallHolding), "Away 2 must leave: ball holding"),
+            (off(RemovalReason::Pushing), "Away 2 must leave: pushing"),
+            (off(RemovalReason::LeftTheField), "Away 2 must leave: it left the field"),
+            (off(RemovalReason::LocalStuck), "Away 2 must leave: the ball is stuck"),
+            (off(RemovalReason::RefereeBox), "Away 2 must leave: the referee box took it off"),
             (Decision::Goal { by: Team::Home, score: [2, 1] }, "Goal for home, 2:1"),
             (stuck(-2.5, 1.25), "No progress: ball to the upper spot in the left half"),
             (stuck(2.5, 0.0), "No progress: ball to the middle spot in the right half"),
@@ -148,10 +248,7 @@ mod tests {
                 "Kick-off: ball to the centre spot",
             ),
             (Decision::RobotsPlaced { kick_off: Team::Away }, "Kick-off for away: robots to their places"),
-            (
-                Decision::RobotRemoved { robot, reason: RemovalReason::SecondDefender },
-                "Away 2 must leave: second defender",
-            ),
+            (off(RemovalReason::SecondDefender), "Away 2 must leave: second defender"),
             (Decision::RobotReturned { robot, at: Pose::default() }, "Away 2 returns"),
             (Decision::PhaseChanged(Phase::Set), "Set: robots stand still"),
             (Decision::HalfEnded { half: 1 }, "Half time"),

@@ -2,27 +2,30 @@
 //! carried out by [`crate::game`], as people around a pitch do.
 
 mod decision;
+mod orders;
 mod rulebook;
 mod rules;
 mod state;
+mod witness;
 
 use std::collections::VecDeque;
 
 use bevy::prelude::*;
-use smallvec::SmallVec;
+use bevy_rapier2d::prelude::RapierContextSimulation;
 
-pub use decision::{Decision, PlacementReason, RemovalReason};
-pub use rulebook::RuleBook;
+pub use decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
+pub use orders::{Orders, RobotState};
+pub use rulebook::{
+    BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,
+};
 pub use rules::{Laws, Observation, RULES, Rule, referee};
 pub use state::{MatchState, Phase, Removal};
 
-use crate::ball::Ball;
 use crate::clock::Clock;
-use crate::geometry::Pose;
-use crate::ids::RobotId;
+use crate::physics::Bodies;
 use crate::pitch::Pitch;
-use crate::robot::OffPitch;
 use crate::schedule::{Tick, TickSystems};
+use witness::{Players, Scene, SeenBall};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Whistles>()
@@ -48,24 +51,32 @@ pub(crate) fn judge(
     (pitch, book): (Res<Pitch>, Res<RuleBook>),
     mut state: ResMut<MatchState>,
     (mut calls, mut whistles): (ResMut<Calls>, ResMut<Whistles>),
-    ball: Single<(&Ball, &Pose)>,
-    robots: Query<(&RobotId, &Pose), Without<OffPitch>>,
+    (bodies, simulation): (Bodies, Single<&RapierContextSimulation>),
+    ball: Single<SeenBall>,
+    players: Players,
 ) {
     calls.0.clear();
     if !state.refereed {
         return;
     }
-    let (ball, ball_pose) = *ball;
-    let mut seen: SmallVec<[(RobotId, Vec2); 8]> =
-        robots.iter().map(|(id, pose)| (*id, pose.position)).collect();
-    seen.sort_unstable_by_key(|(id, _)| *id);
+    let (ball, ball_pose, ball_body) = *ball;
     let laws = Laws { pitch: &pitch, book: &book, ball_radius: ball.kind.radius };
-    let observation = Observation { ball: ball_pose.position, robots: &seen };
-    referee(&laws, &observation, f64::from(clock.dt), &mut state, &mut calls.0);
-    for call in &calls.0 {
-        if whistles.heard.len() == HEARD {
-            whistles.heard.pop_front();
+    let scene = if book.watches_contacts() {
+        Scene::whole((ball_pose, ball_body), &players, &bodies, &simulation)
+    } else {
+        Scene::of_places(ball_pose.position, &players)
+    };
+    referee(&laws, &scene.observation(), f64::from(clock.dt), &mut state, &mut calls.0);
+    whistles.note(clock.tick, &calls.0);
+}
+
+impl Whistles {
+    fn note(&mut self, tick: u64, calls: &[Decision]) {
+        for call in calls {
+            if self.heard.len() == HEARD {
+                self.heard.pop_front();
+            }
+            self.heard.push_back((tick, *call));
         }
-        whistles.heard.push_back((clock.tick, *call));
     }
 }

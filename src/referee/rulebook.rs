@@ -1,10 +1,17 @@
-//! The numbers of a middle-size match as of 2001, as data.
+//! The numbers of a match, as data: by default those of the middle-size league as of 2001, where robots are put on their
+//! places by hand and walls keep the ball in, and, where a file asks for them, those of the four-legged league.
 //!
 //! Only the ten seconds of the second defender and the nearest spot for a stuck ball come from a paper (Hammerheads);
 //! values that nothing at hand confirms say ASSUMPTION. What the numbers do is in [`super::rules`].
 
+mod four_legged;
+
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
+
+pub use four_legged::{
+    BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, Stuck, ThrowIn,
+};
 
 /// How long and how far things may go in a match. A field that a file leaves out has its default.
 #[derive(Resource, Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -12,18 +19,44 @@ use serde::{Deserialize, Serialize};
 pub struct RuleBook {
     /// Playing time of one half in minutes. ASSUMPTION: ten, from memory of those years.
     pub half_minutes: f32,
-    /// Seconds from the placing of the robots to the order to stand still. ASSUMPTION: people needed far longer.
+    /// How robots come to their places for a kick-off.
+    pub kick_off: KickOffStyle,
+    /// Seconds from the placing of the robots to the order to stand still, or that they have at most to walk to their
+    /// places. ASSUMPTION: people needed far longer. Robots that walk have thirty (after the league's rules of 2008).
     pub ready_seconds: f32,
     /// Seconds of standing still before play begins. ASSUMPTION.
     pub set_seconds: f32,
+    /// Whether a team may score with the shot of its kick-off. If not, one of its robots has to touch the ball after the
+    /// whole ball has left the centre circle (after the league's rules of 2008).
+    pub goal_from_kick_off: bool,
+    /// The lead in goals that ends the match, ten in the four-legged league (after its rules of 2008).
+    pub mercy: Option<u32>,
+    /// What happens at the lines.
+    pub out: Out,
+    /// What becomes of a ball that is stuck.
+    pub stuck: Stuck,
     /// Seconds after which a ball without progress is moved to a spot. ASSUMPTION: ten, from memory.
     pub no_progress_seconds: f32,
     /// Metres between the ball and the place where it was when its clock started that count as progress. ASSUMPTION.
     pub no_progress_distance: f32,
+    /// Who may be in the own penalty area.
+    pub defenders: DefenderRule,
     /// Seconds that a second robot may stay in its own penalty area (Hammerheads, ten).
     pub second_defender_seconds: f32,
+    /// How long a robot may hold the ball.
+    pub ball_holding: Option<BallHolding>,
+    /// How long a robot may push an opponent.
+    pub pushing: Option<Pushing>,
+    /// Metres that the centre of a robot may be beyond the lines; none where walls keep robots in. ASSUMPTION: 0.3 in the
+    /// four-legged league, whose rules of 2008 speak of the carpet, up to 0.4 beyond the lines, and of the whole robot.
+    pub leaving: Option<f32>,
     /// Seconds of playing time that a removed robot stays away. ASSUMPTION: thirty, as the four-legged league had it.
     pub removal_seconds: f32,
+    /// Whether a removed robot stays away over a kick-off. If not, it may take part (after the four-legged league's rules
+    /// of 2008).
+    pub removal_outlasts_play: bool,
+    /// Where a removed robot returns.
+    pub returns: ReturnPlace,
     /// Metres from a spot to the centre of a robot below which the spot is taken; also the room kept between a
     /// returning robot and the wall. ASSUMPTION: half a robot of the largest size and a ball's radius.
     pub spot_clearance: f32,
@@ -33,12 +66,23 @@ impl Default for RuleBook {
     fn default() -> RuleBook {
         RuleBook {
             half_minutes: 10.0,
+            kick_off: KickOffStyle::Carried,
             ready_seconds: 3.0,
             set_seconds: 1.0,
+            goal_from_kick_off: true,
+            mercy: None,
+            out: Out::Walls,
+            stuck: Stuck::Spots,
             no_progress_seconds: 10.0,
             no_progress_distance: 0.5,
+            defenders: DefenderRule::Second,
             second_defender_seconds: 10.0,
+            ball_holding: None,
+            pushing: None,
+            leaving: None,
             removal_seconds: 30.0,
+            removal_outlasts_play: true,
+            returns: ReturnPlace::OwnHalf,
             spot_clearance: 0.35,
         }
     }
@@ -48,32 +92,77 @@ impl RuleBook {
     /// Halves of a match.
     pub const HALVES: u8 = 2;
 
+    /// The number of the robot that keeps the goal, where rules name one.
+    pub const KEEPER: u8 = 0;
+
     /// Playing time of one half in seconds.
     pub fn half_seconds(&self) -> f64 {
         f64::from(self.half_minutes) * 60.0
     }
 
-    /// What is wrong with the numbers, as the field's name and a reason; `None` for a sound book.
+    /// Whether a rule asks who touches what.
+    pub fn watches_contacts(&self) -> bool {
+        self.kick_off == KickOffStyle::Walked
+            || self.out != Out::Walls
+            || self.stuck != Stuck::Spots
+            || self.defenders != DefenderRule::Second
+            || self.ball_holding.is_some()
+            || self.pushing.is_some()
+            || !self.goal_from_kick_off
+    }
+
+    /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound book.
     pub fn fault(&self) -> Option<(&'static str, String)> {
-        let positive = [
-            ("half_minutes", self.half_minutes, "minutes"),
-            ("no_progress_seconds", self.no_progress_seconds, "seconds"),
-            ("no_progress_distance", self.no_progress_distance, "metres"),
-            ("second_defender_seconds", self.second_defender_seconds, "seconds"),
-            ("spot_clearance", self.spot_clearance, "metres"),
-        ];
+        let (mut positive, mut at_least_zero) = (
+            vec![
+                ("half_minutes", self.half_minutes, "minutes"),
+                ("no_progress_seconds", self.no_progress_seconds, "seconds"),
+                ("no_progress_distance", self.no_progress_distance, "metres"),
+                ("second_defender_seconds", self.second_defender_seconds, "seconds"),
+                ("spot_clearance", self.spot_clearance, "metres"),
+            ],
+            vec![
+                ("ready_seconds", self.ready_seconds, "seconds"),
+                ("set_seconds", self.set_seconds, "seconds"),
+                ("removal_seconds", self.removal_seconds, "seconds"),
+            ],
+        );
+        if let Some(holding) = &self.ball_holding {
+            positive.extend([
+                ("ball_holding.field_seconds", holding.field_seconds, "seconds"),
+                ("ball_holding.field_distance", holding.field_distance, "metres"),
+                ("ball_holding.keeper_seconds", holding.keeper_seconds, "seconds"),
+            ]);
+        }
+        if let Some(pushing) = &self.pushing {
+            positive.push(("pushing.seconds", pushing.seconds, "seconds"));
+            at_least_zero.push(("pushing.exempt_radius", pushing.exempt_radius, "metres"));
+        }
+        if let Out::ThrowIn(throw_in) = &self.out {
+            at_least_zero.extend([
+                ("out.back", throw_in.back, "metres"),
+                ("out.inside", throw_in.inside, "metres"),
+                ("out.from_end", throw_in.from_end, "metres"),
+            ]);
+        }
+        if let Stuck::LocalGlobal(stuck) = &self.stuck {
+            positive.extend([
+                ("stuck.local_seconds", stuck.local_seconds, "seconds"),
+                ("stuck.global_seconds", stuck.global_seconds, "seconds"),
+            ]);
+        }
+        at_least_zero.extend(self.leaving.map(|beyond| ("leaving", beyond, "metres")));
         for (field, value, unit) in positive {
             if !(value.is_finite() && value > 0.0) {
                 return Some((field, format!("must be a positive number of {unit}, not {value}")));
             }
         }
-        let waits = [
-            ("ready_seconds", self.ready_seconds),
-            ("set_seconds", self.set_seconds),
-            ("removal_seconds", self.removal_seconds),
-        ];
-        let bad = waits.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
-        bad.map(|(field, value)| (field, format!("must be zero or more seconds, not {value}")))
+        for (field, value, unit) in at_least_zero {
+            if !(value.is_finite() && value >= 0.0) {
+                return Some((field, format!("must be zero or more {unit}, not {value}")));
+            }
+        }
+        (self.mercy == Some(0)).then(|| ("mercy", "must be a lead of one goal or more, not 0".into()))
     }
 }
 

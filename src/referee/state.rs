@@ -16,7 +16,7 @@ use crate::ids::{RobotId, Team};
 pub enum Phase {
     /// A kick-off is owed. It never outlasts the call that owes it, so it is seen only before the first one.
     Initial,
-    /// The robots have been put on their kick-off positions.
+    /// The robots have been put on their kick-off positions, or walk there.
     Ready,
     /// All stand still.
     Set,
@@ -60,6 +60,9 @@ pub struct MatchState {
     pub kick_off: Team,
     /// Where home attacks; turned at half time.
     pub home_attacks: Attacking,
+    /// The robot that touched the ball last since the kick-off; none while nobody can tell, since robots of both teams
+    /// touched it at once.
+    pub last_touch: Option<RobotId>,
     /// The robots off the field, sorted by id.
     pub removed: Vec<Removal>,
     /// Whether the rules hold; without them the ball stays in play whatever happens.
@@ -77,6 +80,62 @@ pub struct MatchState {
     pub(super) anchor: Option<Anchor>,
     /// The robots in their own penalty areas, sorted by id.
     pub(super) defenders: Vec<Defender>,
+    /// Seconds that all robots have stood legally and still before a kick-off; none while they do not.
+    pub(super) settled: Option<f64>,
+    /// What is known of the shot of the last kick-off.
+    pub(super) shot: KickOffShot,
+    /// Seconds of play since a robot touched the ball.
+    pub(super) untouched: f64,
+    /// Who holds the ball, or has just released it.
+    pub(super) hold: Option<Hold>,
+    /// The robots that push opponents, or have just done so, sorted by id.
+    pub(super) pushes: Vec<(RobotId, Spell)>,
+}
+
+/// Whether the team that kicked off may score.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum KickOffShot {
+    /// The ball has not left the centre circle yet.
+    InCircle,
+    /// It has, and no robot of the team has touched it since.
+    Left,
+    /// The team may score.
+    Over,
+}
+
+/// Something that a robot does for some time. A pause that is shorter than what it interrupts does not end it, and is
+/// part of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Spell {
+    /// Seconds since it began, up to when it was last seen.
+    pub seconds: f64,
+    /// Seconds of the present pause.
+    pub paused: f64,
+}
+
+impl Spell {
+    /// Seconds of a pause that end no spell, however short it is: bodies that press on each other part for moments.
+    const FLICKER: f64 = 0.2;
+
+    /// The spell after some more seconds, none if it is over.
+    pub fn after(self, seconds: f64, goes_on: bool) -> Option<Spell> {
+        let paused = self.paused + seconds;
+        if goes_on {
+            return Some(Spell { seconds: self.seconds + paused, paused: 0.0 });
+        }
+        (paused < self.seconds.max(Spell::FLICKER)).then_some(Spell { paused, ..self })
+    }
+}
+
+/// A robot that holds the ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hold {
+    pub robot: RobotId,
+    pub spell: Spell,
+    /// Where the ball was when the robot last got hold of it.
+    pub from: Vec2,
+    /// Metres that the robot had carried it before.
+    pub carried: f32,
 }
 
 /// Where the ball was when the clock of its progress started, and the seconds since.
@@ -103,6 +162,7 @@ impl MatchState {
             time_left: book.half_seconds(),
             kick_off,
             home_attacks: Attacking::East,
+            last_touch: None,
             removed: Vec::new(),
             refereed: true,
             opened: kick_off,
@@ -111,6 +171,11 @@ impl MatchState {
             seen_ball: None,
             anchor: None,
             defenders: Vec::new(),
+            settled: None,
+            shot: KickOffShot::Over,
+            untouched: 0.0,
+            hold: None,
+            pushes: Vec::new(),
         }
     }
 
@@ -145,11 +210,17 @@ impl MatchState {
         self.removed.binary_search_by_key(&robot, |removal| removal.robot).is_ok()
     }
 
-    /// Takes a robot off the field for some seconds of playing time; one that is off already stays as it is.
-    pub(super) fn remove(&mut self, robot: RobotId, seconds_left: f64) {
-        if let Err(place) = self.removed.binary_search_by_key(&robot, |removal| removal.robot) {
-            self.removed.insert(place, Removal { robot, seconds_left });
-        }
+    /// Takes a robot off the field for some seconds of playing time, forgets what it was about to be taken off for, and
+    /// tells whether it was on the field: one that is off already stays as it is.
+    pub(super) fn remove(&mut self, robot: RobotId, seconds_left: f64) -> bool {
+        let Err(place) = self.removed.binary_search_by_key(&robot, |removal| removal.robot) else {
+            return false;
+        };
+        self.removed.insert(place, Removal { robot, seconds_left });
+        self.defenders.retain(|defender| defender.robot != robot);
+        self.pushes.retain(|(pushing, _)| *pushing != robot);
+        self.hold = self.hold.filter(|hold| hold.robot != robot);
+        true
     }
 }
 
@@ -182,5 +253,20 @@ mod tests {
         assert_eq!(state.removed.iter().map(|r| r.robot).collect::<Vec<_>>(), [first, second]);
         assert!(state.is_removed(first) && !state.is_removed(RobotId::new(Team::Home, 1)));
         assert_eq!(state.removed[0].seconds_left, 20.0);
+    }
+
+    #[test]
+    fn a_spell_outlasts_pauses_that_are_shorter_than_itself_and_counts_them() {
+        let spell = Spell::default().after(1.0, true).and_then(|spell| spell.after(0.9, false)).unwrap();
+        assert_eq!(spell, Spell { seconds: 1.0, paused: 0.9 });
+        assert_eq!(spell.after(0.1, true), Some(Spell { seconds: 2.0, paused: 0.0 }));
+        assert_eq!(spell.after(0.1, false), None);
+    }
+
+    #[test]
+    fn a_spell_that_has_just_begun_survives_a_flicker() {
+        let spell = Spell::default().after(0.1, false).unwrap();
+        assert!(spell.after(0.05, true).is_some_and(|spell| (spell.seconds - 0.15).abs() < 1e-9));
+        assert_eq!(spell.after(0.1, false), None);
     }
 }

@@ -4,10 +4,10 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, ROUNDING, is_over};
+use super::{Laws, Observation, ROUNDING, by_hand, is_over, returns};
 use crate::referee::decision::{Decision, PlacementReason};
-use crate::referee::rulebook::RuleBook;
-use crate::referee::state::{MatchState, Phase};
+use crate::referee::rulebook::{KickOffStyle, RuleBook};
+use crate::referee::state::{KickOffShot, MatchState, Phase};
 
 /// Leads from ready over set to play, and tells how many seconds of the sample were played.
 pub(super) fn phases(
@@ -66,17 +66,37 @@ pub(super) fn clock(
         state.phase = Phase::Initial;
     } else {
         state.time_left = 0.0;
-        state.waited = 0.0;
-        state.phase = Phase::Finished;
-        decisions.push(Decision::PhaseChanged(Phase::Finished));
-        decisions.push(Decision::MatchFinished { score: state.score });
+        finish(state, decisions);
     }
 }
 
-/// Takes a kick-off that is owed: ball and robots are put in their places and all earlier clocks of the play are void.
-pub(super) fn kick_off(
-    _: &Laws,
+/// Ends a match that one team leads by too much. The playing time that is left stays on the clock.
+pub(super) fn mercy(
+    laws: &Laws,
     _: &Observation,
+    _: f64,
+    state: &mut MatchState,
+    decisions: &mut Vec<Decision>,
+) {
+    let [home, away] = state.score;
+    let decided = laws.book.mercy.is_some_and(|lead| home.abs_diff(away) >= lead);
+    if decided && state.phase != Phase::Finished {
+        finish(state, decisions);
+    }
+}
+
+fn finish(state: &mut MatchState, decisions: &mut Vec<Decision>) {
+    state.waited = 0.0;
+    state.phase = Phase::Finished;
+    decisions.push(Decision::PhaseChanged(Phase::Finished));
+    decisions.push(Decision::MatchFinished { score: state.score });
+}
+
+/// Takes a kick-off that is owed: ball and robots are put in their places and all earlier clocks of the play are void.
+/// Robots that walk to their places are carried only where a half begins.
+pub(super) fn kick_off(
+    laws: &Laws,
+    observation: &Observation,
     _: f64,
     state: &mut MatchState,
     decisions: &mut Vec<Decision>,
@@ -87,8 +107,23 @@ pub(super) fn kick_off(
     state.phase = Phase::Ready;
     state.anchor = None;
     state.defenders.clear();
+    state.settled = None;
+    state.shot = if laws.book.goal_from_kick_off { KickOffShot::Over } else { KickOffShot::InCircle };
+    state.untouched = 0.0;
+    state.last_touch = None;
+    state.hold = None;
+    state.pushes.clear();
     decisions.push(Decision::BallPlaced { at: Vec2::ZERO, reason: PlacementReason::KickOff });
-    decisions.push(Decision::RobotsPlaced { kick_off: state.kick_off });
+    if !laws.book.removal_outlasts_play {
+        returns::all(laws, observation, state, decisions);
+    }
+    match laws.book.kick_off {
+        KickOffStyle::Carried => decisions.push(Decision::RobotsPlaced { kick_off: state.kick_off }),
+        KickOffStyle::Walked if state.time_left == laws.book.half_seconds() => {
+            by_hand::line_up(laws, observation, state, decisions);
+        }
+        KickOffStyle::Walked => {}
+    }
     decisions.push(Decision::PhaseChanged(Phase::Ready));
 }
 
@@ -181,5 +216,39 @@ mod tests {
         table.run(100.0);
         assert_eq!(table.log.len(), count);
         assert_eq!(MatchState { seen_ball: None, ..table.state }, MatchState { seen_ball: None, ..state });
+    }
+
+    #[test]
+    fn a_lead_of_ten_goals_ends_the_match_and_its_clock_stops() {
+        let mut table = Table::four_legged_playing(60);
+        (table.book.goal_from_kick_off, table.book.kick_off) = (true, KickOffStyle::Carried);
+        table.restart_in_play();
+        table.state.score = [9, 0];
+        table.shoot_west();
+        assert_eq!((table.state.score, table.state.phase), ([9, 1], Phase::Ready));
+        for goals in [10, 11] {
+            assert_eq!(table.state.score[0], goals - 1);
+            table.run(table.kick_off_seconds() + 1.0);
+            table.shoot_east();
+        }
+        assert_eq!((table.state.score, table.state.phase), ([11, 1], Phase::Finished));
+        let end = [
+            Decision::Goal { by: Team::Home, score: [11, 1] },
+            Decision::PhaseChanged(Phase::Finished),
+            Decision::MatchFinished { score: [11, 1] },
+        ];
+        assert!(table.decisions().ends_with(&end));
+        let (left, count) = (table.state.time_left, table.log.len());
+        table.run(60.0);
+        assert_eq!((table.state.time_left, table.log.len()), (left, count));
+        assert!(left > 500.0);
+    }
+
+    #[test]
+    fn without_mercy_a_match_goes_on() {
+        let mut table = Table::playing(60);
+        table.state.score = [40, 0];
+        table.shoot_east();
+        assert_eq!((table.state.score, table.state.phase), ([41, 0], Phase::Ready));
     }
 }

@@ -4,16 +4,20 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, ROUNDING};
+use super::{Laws, Observation, ROUNDING, placed_ball};
 use crate::geometry::Attacking;
 use crate::ids::Team;
-use crate::referee::decision::Decision;
-use crate::referee::state::{MatchState, Phase};
+use crate::referee::decision::{Decision, NoGoalReason};
+use crate::referee::state::{KickOffShot, MatchState, Phase};
 
 /// Gives the goal to the team that attacks it, and a kick-off to the other one.
 ///
 /// The ball is taken to have rolled straight since the last sample. What is left of the sample after it crossed the line
 /// is not played, and a crossing before play began or after time was up is none.
+///
+/// By the rules of the four-legged league a goal that was shot at the kick-off does not count, and the other team kicks
+/// off as after a goal; the kick-off team's opponents may score at any time. Neither counts one while an attacker holds
+/// the ball, which is then a ball that is out.
 pub(super) fn goal(
     laws: &Laws,
     observation: &Observation,
@@ -23,6 +27,9 @@ pub(super) fn goal(
 ) {
     let Some(before) = state.seen_ball else { return };
     let ball = observation.ball;
+    if placed_ball(decisions).is_some() {
+        return;
+    }
     if state.phase != Phase::Playing || !is_in_goal(laws, ball) || is_in_goal(laws, before) {
         return;
     }
@@ -33,11 +40,21 @@ pub(super) fn goal(
     }
     let end = if ball.x > 0.0 { Attacking::East } else { Attacking::West };
     let by = if state.attacking(Team::Home) == end { Team::Home } else { Team::Away };
-    state.score[by.index()] += 1;
+    let at_kick_off = state.shot != KickOffShot::Over && by == state.kick_off;
+    let held = laws.book.ball_holding.is_some() && observation.held_by.is_some_and(|robot| robot.team == by);
+    if held && !at_kick_off {
+        decisions.push(Decision::NoGoal { by, reason: NoGoalReason::Held });
+        return;
+    }
     state.kick_off = by.opponent();
     state.played = played;
     state.waited = after;
     state.phase = Phase::Initial;
+    if at_kick_off {
+        decisions.push(Decision::NoGoal { by, reason: NoGoalReason::KickOffShot });
+        return;
+    }
+    state.score[by.index()] += 1;
     decisions.push(Decision::Goal { by, score: state.score });
 }
 

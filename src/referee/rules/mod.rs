@@ -4,11 +4,23 @@
 //! hands out [`Decision`]s. Nothing here knows of bodies, a clock or chance. Times are carried over from sample to
 //! sample with what they exceed, so that matches go the same way at every step size, within one sample.
 
+mod by_hand;
 mod defenders;
 mod flow;
 mod goal;
+mod holding;
+mod illegal_defender;
+mod leaving;
+mod out;
 mod progress;
+mod pushing;
+mod returns;
+mod stuck;
+mod touches;
+mod walking;
 
+#[cfg(test)]
+mod four_legged_table;
 #[cfg(test)]
 mod properties;
 #[cfg(test)]
@@ -16,9 +28,12 @@ mod table;
 #[cfg(test)]
 mod walkthrough;
 
+#[cfg(test)]
+pub(super) use four_legged_table::{four_legged_book, read_book};
+
 use bevy::prelude::Vec2;
 
-use super::decision::Decision;
+use super::decision::{Decision, RemovalReason};
 use super::rulebook::RuleBook;
 use super::state::MatchState;
 use crate::ids::RobotId;
@@ -39,6 +54,42 @@ pub struct Observation<'a> {
     pub ball: Vec2,
     /// The robots on the field, sorted by id.
     pub robots: &'a [(RobotId, Vec2)],
+    /// The robots that touch the ball, in any order; whoever holds it need not be among them.
+    pub touching: &'a [RobotId],
+    /// The robot that has the ball so firmly that nobody else gets at it, under its chin for instance.
+    pub held_by: Option<RobotId>,
+    /// Who pushes which opponent, in any order: they touch, and the first one drives against the second one.
+    pub shoving: &'a [(RobotId, RobotId)],
+    /// The robots that stand still, in any order.
+    pub still: &'a [RobotId],
+}
+
+impl<'a> Observation<'a> {
+    /// Ball and robots, of which none touches the ball or another one and none is known to stand still.
+    pub fn of(ball: Vec2, robots: &'a [(RobotId, Vec2)]) -> Observation<'a> {
+        Observation { ball, robots, touching: &[], held_by: None, shoving: &[], still: &[] }
+    }
+
+    /// Where a robot is that has not been taken off the field.
+    fn place(&self, robot: RobotId, state: &MatchState) -> Option<Vec2> {
+        self.on_field(state).find(|(other, _)| *other == robot).map(|(_, at)| at)
+    }
+
+    /// The robots that have not been taken off the field, by id.
+    fn on_field<'s>(&self, state: &'s MatchState) -> impl Iterator<Item = (RobotId, Vec2)> + use<'a, 's> {
+        self.robots.iter().copied().filter(|(robot, _)| !state.is_removed(*robot))
+    }
+
+    /// The robot on the field that is nearest to a point, of those that are asked for; of equals the first by id.
+    fn nearest(
+        &self,
+        state: &MatchState,
+        to: Vec2,
+        asked: impl Fn(RobotId) -> bool,
+    ) -> Option<(RobotId, Vec2)> {
+        let asked = self.on_field(state).filter(|(robot, _)| asked(*robot));
+        asked.min_by(|(_, a), (_, b)| a.distance(to).total_cmp(&b.distance(to)))
+    }
 }
 
 /// How a rule judges a sample: laws, what is seen, the seconds since the last sample, the state, and the decisions that
@@ -51,21 +102,37 @@ pub struct Rule {
     pub judge: Judge,
 }
 
-/// All rules, in order:
+/// All rules, in order; which of them bite is for the [`RuleBook`] to say:
 ///
-/// 1. `phases` tells how much of the sample was played, which all others count.
-/// 2. `goal` comes before `clock`: a ball that crossed the line before time was up counts, and the rest of the sample is
+/// 1. `walking` may cut the time of [`Phase::Ready`](super::state::Phase) short, which `phases` counts.
+/// 2. `phases` tells how much of the sample was played, which all others count.
+/// 3. `places by hand` follows the order to stand still at once.
+/// 4. `touches` knows who touched the ball, and when the kick-off is over, before `goal` and `out` ask.
+/// 5. `goal` comes before `clock`: a ball that crossed the line before time was up counts, and the rest of the sample is
 ///    not played.
-/// 3. `clock` may end the half, also right after a goal.
-/// 4. `returns` comes before `second defender`, so that a removal starts with its full time.
-/// 5. `no progress` knows who has just come or gone, so that it finds a free spot.
-/// 6. `kick-off` is last: goal and half time may both owe one, and one is taken.
+/// 6. `clock` may end the half, also right after a goal, and `mercy` the match.
+/// 7. `out` moves the ball before others ask where it is. It comes after `goal`, as a goal is no ball that is out.
+/// 8. `returns` comes before what removes robots, so that a removal starts with its full time.
+/// 9. Of the rules that remove robots the first that bites gives the reason. `stuck` is the last of them, since it may be
+///    enough to take off whoever is at fault.
+/// 10. `no progress` knows who has just come or gone, so that it finds a free spot.
+/// 11. `kick-off` is last: several rules may owe one, and one is taken.
 pub const RULES: &[Rule] = &[
+    Rule { name: "walking", judge: walking::walking },
     Rule { name: "phases", judge: flow::phases },
+    Rule { name: "places by hand", judge: by_hand::places_by_hand },
+    Rule { name: "touches", judge: touches::touches },
     Rule { name: "goal", judge: goal::goal },
     Rule { name: "clock", judge: flow::clock },
-    Rule { name: "returns", judge: defenders::returns },
+    Rule { name: "mercy", judge: flow::mercy },
+    Rule { name: "out", judge: out::out },
+    Rule { name: "returns", judge: returns::returns },
     Rule { name: "second defender", judge: defenders::second_defender },
+    Rule { name: "illegal defender", judge: illegal_defender::illegal_defender },
+    Rule { name: "ball holding", judge: holding::ball_holding },
+    Rule { name: "pushing", judge: pushing::pushing },
+    Rule { name: "leaving", judge: leaving::leaving },
+    Rule { name: "stuck", judge: stuck::stuck },
     Rule { name: "no progress", judge: progress::no_progress },
     Rule { name: "kick-off", judge: flow::kick_off },
 ];
@@ -85,12 +152,38 @@ pub fn referee(
     for rule in RULES {
         (rule.judge)(laws, observation, dt, state, &mut made);
     }
-    let placed = made.iter().rev().find_map(|decision| match decision {
+    state.seen_ball = Some(placed_ball(&made).unwrap_or(observation.ball));
+    decisions.append(&mut made);
+}
+
+/// Where the ball has been put in this sample.
+fn placed_ball(made: &[Decision]) -> Option<Vec2> {
+    made.iter().rev().find_map(|decision| match decision {
         Decision::BallPlaced { at, .. } => Some(*at),
         _ => None,
+    })
+}
+
+/// Takes a robot off the field, unless another rule has already done so or people have just put it where it is.
+fn send_off(
+    state: &mut MatchState,
+    made: &mut Vec<Decision>,
+    robot: RobotId,
+    seconds: f64,
+    reason: RemovalReason,
+) {
+    let placed = made.iter().any(|decision| match decision {
+        Decision::RobotPlaced { robot: placed, .. } => *placed == robot,
+        _ => false,
     });
-    state.seen_ball = Some(placed.unwrap_or(observation.ball));
-    decisions.append(&mut made);
+    if !placed && state.remove(robot, seconds.max(0.0)) {
+        made.push(Decision::RobotRemoved { robot, reason });
+    }
+}
+
+/// Whether a robot is in its own penalty area.
+fn is_in_own_area(laws: &Laws, state: &MatchState, robot: RobotId, at: Vec2) -> bool {
+    laws.pitch.own_penalty_area().contains(state.attacking(robot.team).turn(at))
 }
 
 /// Whether a span of time is over, with room for the rounding of a sum of many steps.
@@ -107,7 +200,13 @@ fn standing<'a>(
     state: &'a MatchState,
     made: &'a [Decision],
 ) -> impl Iterator<Item = Vec2> + 'a {
-    let seen = observation.robots.iter().filter(|(robot, _)| !state.is_removed(*robot)).map(|(_, at)| *at);
+    let seen = observation.on_field(state).map(move |(robot, at)| {
+        let put = made.iter().rev().find_map(|decision| match decision {
+            Decision::RobotPlaced { robot: placed, at } if *placed == robot => Some(at.position),
+            _ => None,
+        });
+        put.unwrap_or(at)
+    });
     let returned = made.iter().filter_map(|decision| match decision {
         Decision::RobotReturned { at, .. } => Some(at.position),
         _ => None,

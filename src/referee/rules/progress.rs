@@ -6,9 +6,9 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, is_over, standing};
+use super::{Laws, Observation, is_over, placed_ball, standing};
 use crate::referee::decision::{Decision, PlacementReason};
-use crate::referee::rulebook::RuleBook;
+use crate::referee::rulebook::{RuleBook, Stuck};
 use crate::referee::state::{Anchor, MatchState, Phase};
 
 /// Moves a stuck ball. While all spots are taken it stays, and goes as soon as one is free.
@@ -20,7 +20,11 @@ pub(super) fn no_progress(
     decisions: &mut Vec<Decision>,
 ) {
     let ball = observation.ball;
-    if state.phase != Phase::Playing || !ball.is_finite() {
+    if laws.book.stuck != Stuck::Spots || state.phase != Phase::Playing || !ball.is_finite() {
+        return;
+    }
+    if let Some(at) = placed_ball(decisions) {
+        state.anchor = Some(Anchor { at, seconds: 0.0 });
         return;
     }
     let from = state.seen_ball.filter(|seen| seen.is_finite()).unwrap_or(ball);
@@ -40,7 +44,7 @@ pub(super) fn no_progress(
 
 /// The free spot nearest to the ball; of two as near, the first of the pitch's list. A spot on which the ball practically
 /// lies is the last choice, as moving it there would be no progress.
-fn free_spot(spots: &[Vec2], ball: Vec2, robots: &[Vec2], book: &RuleBook) -> Option<Vec2> {
+pub(super) fn free_spot(spots: &[Vec2], ball: Vec2, robots: &[Vec2], book: &RuleBook) -> Option<Vec2> {
     let is_free = |spot: &Vec2| robots.iter().all(|robot| robot.distance(*spot) >= book.spot_clearance);
     let order = |spot: &Vec2| {
         let distance = spot.distance(ball);
@@ -55,7 +59,7 @@ fn free_spot(spots: &[Vec2], ball: Vec2, robots: &[Vec2], book: &RuleBook) -> Op
 
 impl Anchor {
     /// The clock after the ball rolled straight from one point to another within some seconds.
-    fn moved(self, from: Vec2, to: Vec2, seconds: f64, reach: f32) -> Anchor {
+    pub(super) fn moved(self, from: Vec2, to: Vec2, seconds: f64, reach: f32) -> Anchor {
         if self.at.distance(to) < reach {
             return Anchor { seconds: self.seconds + seconds, ..self };
         }

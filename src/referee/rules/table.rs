@@ -2,10 +2,11 @@
 
 use bevy::prelude::Vec2;
 
+use super::four_legged_table::four_legged_line_up;
 use super::{Laws, Observation, referee};
 use crate::ids::{RobotId, Team};
 use crate::pitch::{Goal, PenaltyArea, Pitch, Walls};
-use crate::referee::decision::Decision;
+use crate::referee::decision::{Decision, RemovalReason};
 use crate::referee::rulebook::RuleBook;
 use crate::referee::state::MatchState;
 
@@ -20,11 +21,16 @@ pub struct Table {
     pub state: MatchState,
     pub ball: Vec2,
     pub robots: Vec<(RobotId, Vec2)>,
+    pub touching: Vec<RobotId>,
+    pub held_by: Option<RobotId>,
+    pub shoving: Vec<(RobotId, RobotId)>,
+    pub still: Vec<RobotId>,
+    pub ball_radius: f32,
     /// Whether ball and robots go where the referee puts them.
     pub obeys: bool,
     pub log: Vec<(f64, Decision)>,
     pub time: f64,
-    hertz: u32,
+    pub(super) hertz: u32,
 }
 
 /// A 9 m × 5 m pitch with nine spots.
@@ -38,7 +44,7 @@ pub fn pitch() -> Pitch {
         penalty_area: PenaltyArea { depth: 1.0, width: 3.0 },
         centre_circle_radius: 0.5,
         penalty_spots: spots.collect(),
-        walls: Walls { thickness: 0.5, friction: 0.2, restitution: 0.6 },
+        walls: Walls { thickness: 0.5, friction: 0.2, restitution: 0.6, margin: 0.0 },
     }
 }
 
@@ -60,6 +66,11 @@ impl Table {
             state,
             ball: Vec2::ZERO,
             robots: line_up(),
+            touching: Vec::new(),
+            held_by: None,
+            shoving: Vec::new(),
+            still: Vec::new(),
+            ball_radius: BALL_RADIUS,
             obeys: true,
             log: Vec::new(),
             time: 0.0,
@@ -83,8 +94,15 @@ impl Table {
     /// One look of the referee after `dt` seconds.
     pub fn look(&mut self, dt: f64) {
         self.time += dt;
-        let laws = Laws { pitch: &self.pitch, book: &self.book, ball_radius: BALL_RADIUS };
-        let observation = Observation { ball: self.ball, robots: &self.robots };
+        let laws = Laws { pitch: &self.pitch, book: &self.book, ball_radius: self.ball_radius };
+        let observation = Observation {
+            ball: self.ball,
+            robots: &self.robots,
+            touching: &self.touching,
+            held_by: self.held_by,
+            shoving: &self.shoving,
+            still: &self.still,
+        };
         let mut decisions = Vec::new();
         referee(&laws, &observation, dt, &mut self.state, &mut decisions);
         for decision in decisions {
@@ -99,12 +117,15 @@ impl Table {
         match decision {
             Decision::BallPlaced { at, .. } => self.ball = at,
             Decision::RobotsPlaced { .. } => {
-                let places = line_up();
+                let is_four_legged = self.pitch.margin() > 0.0;
+                let places = if is_four_legged { four_legged_line_up() } else { line_up() };
                 let place = |robot| places.iter().find(|(other, _)| *other == robot).expect("it lines up").1;
                 self.robots.iter_mut().for_each(|(robot, at)| *at = place(*robot));
             }
             Decision::RobotRemoved { robot, .. } => self.take_off(robot),
-            Decision::RobotReturned { robot, at } => self.put(robot, at.position),
+            Decision::RobotReturned { robot, at } | Decision::RobotPlaced { robot, at } => {
+                self.put(robot, at.position)
+            }
             _ => {}
         }
     }
@@ -136,8 +157,9 @@ impl Table {
     }
 
     fn shoot(&mut self, side: f32) {
-        for x in [4.4, 4.7] {
-            self.ball = Vec2::new(side * x, 0.2);
+        let line = self.pitch.length / 2.0;
+        for beyond in [-0.1, 0.2] {
+            self.ball = Vec2::new(side * (line + beyond), 0.2);
             self.look(1.0 / f64::from(self.hertz));
         }
     }
@@ -155,6 +177,15 @@ impl Table {
 
     pub fn place(&self, robot: RobotId) -> Vec2 {
         self.robots.iter().find(|(other, _)| *other == robot).expect("it is on the field").1
+    }
+
+    /// The robots that were taken off for a reason.
+    pub fn removals(&self, why: RemovalReason) -> Vec<RobotId> {
+        let removed = |decision| match decision {
+            Decision::RobotRemoved { robot, reason } if reason == why => Some(robot),
+            _ => None,
+        };
+        self.decisions().into_iter().filter_map(removed).collect()
     }
 
     pub fn decisions(&self) -> Vec<Decision> {

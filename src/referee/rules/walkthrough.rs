@@ -3,10 +3,11 @@
 use bevy::prelude::Vec2;
 
 use super::RULES;
+use super::four_legged_table::four_legged_line_up;
 use super::table::{KICK_OFF_SECONDS, Table};
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
-use crate::referee::decision::{Decision, PlacementReason};
+use crate::referee::decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
 use crate::referee::state::Phase;
 
 #[test]
@@ -135,6 +136,95 @@ fn a_match_goes_the_same_way_at_every_step_size() {
         for ((late, decision), (time, _)) in coarse.iter().zip(&fine) {
             let sample = 1.0 / f64::from(hertz);
             assert!((late - time).abs() < sample + 1e-6, "{decision} at {late} s for {time} s, {hertz} Hz");
+        }
+    }
+}
+
+/// A four-legged match in which everything happens once or more, and its log. What happens is timed by the clock on the
+/// wall.
+fn four_legged_watched(hertz: u32) -> Vec<(f64, Decision)> {
+    let [keeper, pusher, holder, stray] = [0, 1, 2, 3].map(|number| RobotId::new(Team::Home, number));
+    let [other_keeper, pushed, guest, _] = [0, 1, 2, 3].map(|number| RobotId::new(Team::Away, number));
+    let mut table = Table::four_legged(hertz);
+    table.book.half_minutes = 3.0;
+    table.restart(Team::Home);
+    let dt = 1.0 / f64::from(hertz);
+    for sample in 1..=420 * hertz {
+        let time = f64::from(sample) * dt;
+        let middle = time - dt / 2.0;
+        let between = |from: f64, to: f64| (from..to).contains(&middle);
+        let begins = |at: f64| (at..at + dt).contains(&time);
+        if begins(10.0) {
+            let all = four_legged_line_up();
+            all.into_iter().for_each(|(robot, at)| table.put(robot, at));
+        }
+        table.still =
+            if between(0.0, 12.0) { table.robots.iter().map(|(robot, _)| *robot).collect() } else { vec![] };
+        // 10 s: all have walked to their places, so that play begins at about 12 s. Home shoots from the circle into the
+        // goal.
+        if between(14.0, 15.5) {
+            table.ball.x += 2.0 * dt as f32;
+        }
+        // About 46.4 s: away's kick-off after the walking time. Away plays the ball out over the side line.
+        table.touching = match middle {
+            t if (13.9..14.0).contains(&t) => vec![pusher],
+            t if (50.0..50.5).contains(&t) => vec![guest],
+            t if (60.0..125.0).contains(&t) => vec![stray],
+            _ => vec![],
+        };
+        if between(50.0, 51.3) {
+            table.ball.y += 1.7 * dt as f32;
+        }
+        // 60 s: a scrum, and what else is forbidden meanwhile.
+        table.shoving = if between(60.0, 64.0) && !table.state.is_removed(pusher) {
+            vec![(pusher, pushed)]
+        } else {
+            vec![]
+        };
+        table.held_by = (between(66.0, 70.0) && !table.state.is_removed(holder)).then_some(holder);
+        if begins(72.0) {
+            table.put(other_keeper, Vec2::new(1.0, 0.0));
+            table.put(guest, Vec2::new(2.3, 0.3));
+            table.put(keeper, Vec2::new(-2.3, 2.4));
+        }
+        // The keeper, nearest to the ball so far, goes home: at the centre the ball is stuck again, and now a robot leaves.
+        if begins(95.0) {
+            table.put(other_keeper, Vec2::new(2.4, 0.0));
+        }
+        table.look(dt);
+    }
+    table.log
+}
+
+#[test]
+fn a_four_legged_match_goes_the_same_way_at_every_step_size() {
+    let fine = four_legged_watched(240);
+    let shown = |asked: &dyn Fn(&Decision) -> bool| fine.iter().any(|(_, decision)| asked(decision));
+    for reason in [
+        RemovalReason::IllegalDefender,
+        RemovalReason::BallHolding,
+        RemovalReason::Pushing,
+        RemovalReason::LeftTheField,
+        RemovalReason::LocalStuck,
+    ] {
+        assert!(
+            shown(&|d| matches!(d, Decision::RobotRemoved { reason: r, .. } if *r == reason)),
+            "{reason:?}"
+        );
+    }
+    assert!(shown(&|d| matches!(d, Decision::NoGoal { reason: NoGoalReason::KickOffShot, .. })));
+    assert!(shown(&|d| matches!(d, Decision::BallPlaced { reason: PlacementReason::ThrowIn { .. }, .. })));
+    assert!(shown(&|d| matches!(d, Decision::Untouched { .. })));
+    assert!(shown(&|d| matches!(d, Decision::RobotReturned { .. })));
+    assert!(shown(&|d| matches!(d, Decision::RobotPlaced { .. })));
+    assert!(shown(&|d| matches!(d, Decision::HalfEnded { .. })));
+    for hertz in [20, 60] {
+        let coarse = four_legged_watched(hertz);
+        let names = |log: &[(f64, Decision)]| log.iter().map(|(_, d)| d.to_string()).collect::<Vec<_>>();
+        assert_eq!(names(&coarse), names(&fine), "at {hertz} Hz");
+        for ((late, decision), (time, _)) in coarse.iter().zip(&fine) {
+            let samples = 4.0 / f64::from(hertz);
+            assert!((late - time).abs() < samples, "{decision} at {late} s for {time} s, {hertz} Hz");
         }
     }
 }

@@ -1,0 +1,98 @@
+//! What the referee can see besides places: who touches the ball, who pushes whom, who stands still.
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::*;
+use smallvec::SmallVec;
+
+use super::rules::Observation;
+use crate::ball::Ball;
+use crate::geometry::{Pose, Twist};
+use crate::handling::Handling;
+use crate::ids::RobotId;
+use crate::physics::{Bodies, touch};
+use crate::robot::{DriveCommand, OffPitch, RobotBodies};
+
+/// A robot as the referee sees it.
+#[derive(QueryData)]
+pub struct Player {
+    id: &'static RobotId,
+    handles: &'static RobotBodies,
+    pose: &'static Pose,
+    twist: &'static Twist,
+    command: &'static DriveCommand,
+    handling: &'static Handling,
+}
+
+pub(super) type Players<'w, 's> = Query<'w, 's, Player, Without<OffPitch>>;
+
+/// Everything that happens between bodies.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scene {
+    pub ball: Vec2,
+    robots: SmallVec<[(RobotId, Vec2); 8]>,
+    touching: SmallVec<[RobotId; 4]>,
+    held_by: Option<RobotId>,
+    shoving: SmallVec<[(RobotId, RobotId); 4]>,
+    still: SmallVec<[RobotId; 8]>,
+}
+
+/// A robot that is told to move towards another faster than this pushes it, m/s.
+const SHOVE: f32 = 0.05;
+/// Slower robots stand still, m/s and rad/s.
+const STILL: (f32, f32) = (0.02, 0.1);
+
+impl Scene {
+    /// Places alone: all that the rules of walled pitches ask for.
+    pub fn of_places(ball: Vec2, players: &Players) -> Scene {
+        let mut robots: SmallVec<[(RobotId, Vec2); 8]> =
+            players.iter().map(|player| (*player.id, player.pose.position)).collect();
+        robots.sort_unstable_by_key(|(id, _)| *id);
+        Scene { ball, robots, ..Scene::default() }
+    }
+
+    /// Also contacts and motion.
+    pub fn whole(
+        ball: (&Pose, &RapierRigidBodyHandle),
+        players: &Players,
+        bodies: &Bodies,
+        simulation: &RapierContextSimulation,
+    ) -> Scene {
+        let mut scene = Scene::of_places(ball.0.position, players);
+        let contact = |a: &RapierRigidBodyHandle, b: &RapierRigidBodyHandle| touch(simulation, bodies, a, b);
+        for player in players {
+            let id = *player.id;
+            if contact(&player.handles.unit, ball.1) {
+                scene.touching.push(id);
+            }
+            if player.handling.holds() {
+                scene.held_by = Some(id);
+            }
+            if player.twist.linear.length() < STILL.0 && player.twist.angular.abs() < STILL.1 {
+                scene.still.push(id);
+            }
+            let wanted = player.pose.forward().rotate(player.command.velocity());
+            for other in players.iter().filter(|other| other.id.team != id.team) {
+                let way = (other.pose.position - player.pose.position).normalize_or_zero();
+                if wanted.dot(way) > SHOVE && contact(&player.handles.unit, &other.handles.unit) {
+                    scene.shoving.push((id, *other.id));
+                }
+            }
+        }
+        scene
+    }
+
+    pub fn observation(&self) -> Observation<'_> {
+        Observation {
+            ball: self.ball,
+            robots: &self.robots,
+            touching: &self.touching,
+            held_by: self.held_by,
+            shoving: &self.shoving,
+            still: &self.still,
+        }
+    }
+}
+
+/// The ball as the referee sees it.
+pub(super) type SeenBall<'a> = (&'a Ball, &'a Pose, &'a RapierRigidBodyHandle);
