@@ -162,6 +162,11 @@ impl Zone {
         point.clamp(self.min, self.max)
     }
 
+    /// This zone on a pitch that is stretched by a factor along each axis.
+    pub fn scaled(self, scale: Vec2) -> Zone {
+        Zone { min: self.min * scale, max: self.max * scale }
+    }
+
     pub fn is_finite(self) -> bool {
         self.min.is_finite() && self.max.is_finite() && self.min.cmple(self.max).all()
     }

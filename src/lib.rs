@@ -18,7 +18,10 @@ pub mod clock;
 pub mod data;
 pub mod drive;
 pub mod game;
+pub mod gamecontroller;
 pub mod geometry;
+pub mod handling;
+pub mod head;
 pub mod ids;
 #[cfg(feature = "window")]
 pub mod inspector;
@@ -40,6 +43,7 @@ pub mod schemas;
 pub mod script;
 pub mod sense;
 pub mod strategy;
+pub mod tcm;
 pub mod teamwork;
 #[cfg(feature = "window")]
 pub mod view;
@@ -53,13 +57,13 @@ pub fn simulation(app: &mut App) {
         schedule::plugin,
         physics::plugin,
         script::plugin,
-        radio::plugin,
+        (tcm::plugin, radio::plugin),
         sense::plugin,
         world_model::plugin,
         teamwork::plugin,
         behaviour::plugin,
         motor::plugin,
-        drive::plugin,
+        (head::plugin, drive::plugin, handling::plugin),
         ball::plugin,
         referee::plugin,
         game::plugin,

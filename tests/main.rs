@@ -1,6 +1,8 @@
 //! Whole matches and bodies in motion: everything that needs more than one module. One binary, since each links Bevy.
 
+mod b3p;
 mod command_line;
+mod corpus;
 mod play;
 mod policies;
 mod radio;

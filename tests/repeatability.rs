@@ -87,7 +87,7 @@ fn a_pilot_drives_within_the_limits_of_the_robot_and_hands_it_back() {
     let mut game = Match::new(&plan);
     let mut fastest = 0.0f32;
     for tick in 0..600 {
-        let pilot = Pilot { throttle: 9.0, turn: f32::NAN };
+        let pilot = Pilot { throttle: 9.0, turn: f32::NAN, ..Pilot::default() };
         let request = match tick {
             0..500 => Request::Steer { robot: id, pilot },
             _ => Request::HandBack(id),

@@ -51,7 +51,7 @@ fn lonely_plan() -> MatchPlan {
 /// Drives with these wheel speeds, m/s, for a number of ticks, and looks at robot and trailer after each.
 fn drive(game: &mut Match, (left, right): (f32, f32), ticks: u32, mut look: impl FnMut(Pose, Pose)) {
     let turn_rate = (right - left) / TRACK / 150f32.to_radians();
-    let pilot = Pilot { throttle: (left + right) / 2.0 / TOP_SPEED, turn: turn_rate };
+    let pilot = Pilot { throttle: (left + right) / 2.0 / TOP_SPEED, turn: turn_rate, ..Pilot::default() };
     for _ in 0..ticks {
         game.world_mut().resource_mut::<Requests>().ask(Request::Steer { robot: CYE, pilot });
         game.tick();

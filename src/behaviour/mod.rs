@@ -14,9 +14,11 @@ use bevy::prelude::*;
 use crate::ball::Ball;
 use crate::clock::Clock;
 use crate::geometry::Zone;
+use crate::handling::Handling;
 use crate::ids::RobotId;
 use crate::perception::{Memory, Perception};
 use crate::pitch::Pitch;
+use crate::referee::Orders;
 use crate::robot::{OffPitch, Robot};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::Odometry;
@@ -128,6 +130,8 @@ pub struct Wits {
     pub odometry: &'static Odometry,
     pub picture: &'static TeamPicture,
     pub role: &'static Role,
+    pub handling: &'static Handling,
+    pub orders: &'static Orders,
 }
 
 /// The perception of a robot in an activity.
@@ -150,6 +154,7 @@ pub fn perception<'a>(
         now: clock.now() as f32,
         ball_age: wits.model.ball.map(|ball| seconds_since(ball.seen)),
         time_in_state: seconds_since(activity.since),
+        holds_ball: wits.handling.holds(),
         stalled_for: wits.odometry.stalled_for,
         front: wits.robot.kind.body.length / 2.0,
         ball_radius: ball.kind.radius,

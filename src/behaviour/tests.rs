@@ -33,7 +33,7 @@ impl Bench {
         let parts =
             (id, Robot::new(Arc::new(cye()), &clock), Odometry::new(Seed(1), id), WorldModel::default());
         let mind = (Memory::new(strategy.slots), Role(role), Activity::new(&strategy, role, 0));
-        let mind = (mind, TeamPicture::new(&strategy));
+        let mind = (mind, TeamPicture::new(&strategy), Handling::new(Seed(1), id), Orders::default());
         let robot = world.spawn((parts, mind)).id();
         Bench { world, robot, strategy }
     }

@@ -12,6 +12,7 @@ use crate::data::{AssetFolder, DataError};
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
 use crate::radio::{LinkCounters, Traffic};
+use crate::record::BookingFigures;
 use crate::referee::RuleBook;
 
 #[derive(Args, Debug, Default)]
@@ -34,6 +35,10 @@ struct Report {
     possession: [f64; 2],
     /// Share of play with two or more team mates within a metre of the ball.
     crowding: [f64; 2],
+    /// Share of play with two or more team mates within half a metre of the ball.
+    agglomeration: [f64; 2],
+    /// How well each team's ball booking met its requirements.
+    bookings: [BookingFigures; 2],
     /// Metres, all robots of a team together.
     driven: [f64; 2],
     /// What a team's robots said to each other.
@@ -116,6 +121,8 @@ impl Report {
             score: game.state().score,
             possession: record.possession_shares(),
             crowding: record.crowding.map(|seconds| seconds / record.played.max(f64::EPSILON)),
+            agglomeration: record.agglomeration.map(|seconds| seconds / record.played.max(f64::EPSILON)),
+            bookings: record.bookings,
             driven: Team::BOTH.map(|team| record.driven_by(team)),
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
             seconds: clock.now(),

@@ -8,13 +8,14 @@ use crate::ball::{Ball, Rolling};
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
+use crate::handling::Handling;
 use crate::ids::{RobotId, Team};
 use crate::motor::SteeringIntent;
 use crate::perception::Memory;
 use crate::physics::Bodies;
 use crate::pitch::Pitch;
-use crate::referee::{Calls, Decision, MatchState, judge};
-use crate::robot::{OffPitch, RobotBodies, WheelCommand};
+use crate::referee::{Calls, Decision, MatchState, Orders, Phase, RuleBook, judge};
+use crate::robot::{DriveCommand, OffPitch, Robot, RobotBodies};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::{Eyesight, Percepts};
 use crate::strategy::{Strategies, Strategy};
@@ -22,7 +23,8 @@ use crate::teamwork::Role;
 use crate::world_model::WorldModel;
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, (place_ball, place_robots).chain().after(judge).in_set(TickSystems::Referee));
+    let hands = (place_ball, place_robots, tell_robots).chain();
+    app.add_systems(Tick, hands.after(judge).in_set(TickSystems::Referee));
 }
 
 fn place_ball(
@@ -50,7 +52,9 @@ pub struct Carried {
     handles: &'static RobotBodies,
     pose: &'static mut Pose,
     twist: &'static mut Twist,
-    wheels: &'static mut WheelCommand,
+    robot: &'static Robot,
+    command: &'static mut DriveCommand,
+    handling: &'static mut Handling,
     intent: &'static mut SteeringIntent,
     model: &'static mut WorldModel,
     eyesight: &'static mut Eyesight,
@@ -88,7 +92,11 @@ fn place_robots(
                     let own = poses.and_then(|poses| poses.iter().find(|(number, _)| *number == id.number));
                     ends.turn_pose(own.map_or_else(Pose::default, |(_, pose)| *pose))
                 }
-                Decision::RobotReturned { robot, at } if robot == id => at,
+                Decision::RobotReturned { robot, at } | Decision::RobotPlaced { robot, at }
+                    if robot == id =>
+                {
+                    at
+                }
                 Decision::RobotRemoved { robot, .. } if robot == id => beside_the_pitch(&pitch, id),
                 _ => continue,
             };
@@ -110,6 +118,34 @@ fn place_robots(
     }
 }
 
+/// Tells each robot what the referee wants of it. Places for a kick-off are given out when robots get ready for it.
+fn tell_robots(
+    (book, state, strategies, calls): (Res<RuleBook>, Res<MatchState>, Res<Strategies>, Res<Calls>),
+    mut robots: Query<(&RobotId, &Role, &mut Orders)>,
+) {
+    let begins = calls.0.contains(&Decision::PhaseChanged(Phase::Ready));
+    let places = begins.then(|| {
+        Team::BOTH.map(|team| {
+            let in_team = robots.iter().filter(|(id, ..)| id.team == team);
+            let mut roles: Vec<(u8, usize)> = in_team.map(|(id, role, _)| (id.number, role.0)).collect();
+            roles.sort_unstable();
+            kick_off_poses(strategies.of(team), &roles, state.kick_off == team)
+        })
+    });
+    for (id, _, mut orders) in &mut robots {
+        let place = match &places {
+            Some(both) => {
+                both[id.team.index()].iter().find(|(number, _)| *number == id.number).map(|(_, place)| *place)
+            }
+            None => orders.place,
+        };
+        let next = Orders::of(*id, &state, &book, place);
+        if *orders != next {
+            *orders = next;
+        }
+    }
+}
+
 impl CarriedItem<'_, '_> {
     fn put_down(&mut self, at: Pose, in_team_frame: Pose, bodies: &mut Bodies) {
         bodies.place(&self.handles.unit, at);
@@ -118,7 +154,8 @@ impl CarriedItem<'_, '_> {
         }
         *self.pose = at;
         *self.twist = Twist::default();
-        *self.wheels = WheelCommand::default();
+        *self.command = DriveCommand::idle(&self.robot.kind);
+        self.handling.let_go();
         *self.intent = SteeringIntent::Stop;
         *self.model = WorldModel::told(in_team_frame);
         *self.percepts = Percepts::default();
@@ -145,7 +182,7 @@ fn kick_off_poses(strategy: &Strategy, roles: &[(u8, usize)], ours: bool) -> Vec
 /// Where a robot waits before the match, and after it was taken off.
 pub(super) fn beside_the_pitch(pitch: &Pitch, id: RobotId) -> Pose {
     let side = if id.team == Team::Home { -1.0 } else { 1.0 };
-    let y = pitch.half_size().y + pitch.walls.thickness + 0.6;
+    let y = pitch.half_size().y + pitch.margin() + pitch.walls.thickness + 0.6;
     Pose::new(side * (1.0 + f32::from(id.number)), y, -std::f32::consts::FRAC_PI_2)
 }
 

@@ -21,6 +21,7 @@ use crate::rng::Seed;
 use crate::schedule::Tick;
 use crate::script::{Requests, Script};
 use crate::strategy::Strategies;
+use crate::tcm::{Addresses, Incoming, OnAir};
 use spawn::{spawn_ball, spawn_planned};
 
 pub(super) fn plugin(app: &mut App) {
@@ -55,6 +56,9 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(MessageCounts::default());
     world.insert_resource(Traffic::default());
     world.insert_resource(RadioLog::default());
+    world.insert_resource(Addresses(plan.directory()));
+    world.insert_resource(Incoming::default());
+    world.insert_resource(OnAir::default());
     open_world(world, &plan.pitch, MatchEntity);
     spawn_ball(world, plan, seed);
     for id in plan.robots() {

@@ -17,6 +17,7 @@ use crate::robot::RobotKind;
 use crate::script::Request;
 use crate::sense::Sensing;
 use crate::strategy::Strategy;
+use crate::tcm::{Directory, TcmSettings};
 
 /// A match as it is written in `assets/matches/*.ron`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +29,8 @@ pub struct MatchFile {
     pub rules: RuleBook,
     #[serde(default = "default_radio")]
     pub radio: String,
+    #[serde(default)]
+    pub tcm: TcmSettings,
     pub home: TeamFile,
     pub away: TeamFile,
 }
@@ -68,6 +71,9 @@ pub struct MatchPlan {
     pub ball: BallKind,
     pub rules: RuleBook,
     pub radio: Radio,
+    pub tcm: TcmSettings,
+    /// Where the robots and computers are that the TCM speaks to.
+    pub addresses: Option<Directory>,
     /// Home first.
     pub teams: [TeamPlan; 2],
     pub seed: u64,
@@ -92,6 +98,8 @@ pub struct TeamPlan {
 
 /// The match that is played unless another is named.
 pub const DEFAULT_MATCH: &str = "friendly";
+/// The port of the first robot, unless a match says where its robots are.
+pub const FIRST_PORT: u16 = 7400;
 /// The radio that a match has unless it names another.
 pub const DEFAULT_RADIO: &str = "good";
 
@@ -106,7 +114,8 @@ impl MatchPlan {
         let mut file: MatchFile = source.parse()?;
         let ball_fault = file.ball.fault().map(|(field, message)| (format!("ball.{field}"), message));
         let rules_fault = file.rules.fault().map(|(field, message)| (format!("rules.{field}"), message));
-        if let Some((field, message)) = ball_fault.or(rules_fault) {
+        let tcm_fault = file.tcm.fault().map(|(field, message)| (format!("tcm.{field}"), message));
+        if let Some((field, message)) = ball_fault.or(rules_fault).or(tcm_fault) {
             return Err(source.error_at(&dotted(&field), message));
         }
         if let Some(minutes) = choice.half_minutes {
@@ -120,13 +129,16 @@ impl MatchPlan {
         let radio = checked(&assets.file("radios", radio), Radio::fault)?;
         file.home.strategy = choice.home.clone().unwrap_or(file.home.strategy);
         file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
-        let teams = [TeamPlan::read(assets, &file.home)?, TeamPlan::read(assets, &file.away)?];
+        let teams =
+            [TeamPlan::read(assets, &file.home, &pitch)?, TeamPlan::read(assets, &file.away, &pitch)?];
         let plan = MatchPlan {
             name: file.name,
             pitch,
             ball: file.ball,
             rules: file.rules,
             radio,
+            tcm: file.tcm,
+            addresses: None,
             teams,
             seed: choice.seed,
             pilot: choice.pilot,
@@ -153,6 +165,15 @@ impl MatchPlan {
             .filter(|id| self.situation.as_ref().is_none_or(|situation| situation.robots.contains_key(id)))
     }
 
+    /// Who can be spoken to: the match's robots and a computer, at ports of this machine if they are given none.
+    pub fn directory(&self) -> Directory {
+        self.addresses.clone().unwrap_or_else(|| {
+            let players = self.teams.each_ref().map(|team| team.strategy.players.len() as u8);
+            // Sixteen robots at most find ports.
+            Directory::loopback(FIRST_PORT, &players).unwrap_or_default()
+        })
+    }
+
     fn check_pilot(&self) -> Result<(), DataError> {
         match self.pilot {
             Some(pilot) if !self.robots().any(|robot| robot == pilot) => {
@@ -165,10 +186,10 @@ impl MatchPlan {
 }
 
 impl TeamPlan {
-    pub(crate) fn read(assets: &AssetFolder, file: &TeamFile) -> Result<TeamPlan, DataError> {
+    pub(crate) fn read(assets: &AssetFolder, file: &TeamFile, pitch: &Pitch) -> Result<TeamPlan, DataError> {
         let path = assets.file("strategies", &file.strategy);
         let source = Source::read(&path)?;
-        let strategy = Strategy::parse(&source)?;
+        let strategy = Strategy::parse_for(&source, pitch)?;
         if !strategy.robot_kinds.contains(&file.robot) {
             let message = format!("cannot be played by a `{}`: add it here if it can", file.robot);
             return Err(source.error_at(&Field::root().key("robot_kinds"), message));

@@ -10,19 +10,22 @@ use super::carry::beside_the_pitch;
 use crate::ball::{Ball, BallDice, Rolling};
 use crate::behaviour::Activity;
 use crate::clock::Clock;
+use crate::drive::GaitError;
 use crate::geometry::{Pose, Twist};
+use crate::handling::{Handling, KickIntent};
+use crate::head::{Head, HeadIntent};
 use crate::ids::{MatchEntity, RobotId};
 use crate::motor::{Contributions, MotorDice, SteeringIntent};
 use crate::perception::Memory;
 use crate::physics::register_bodies;
 use crate::pilot::Pilot;
-use crate::radio::{Inbox, Outbox};
-use crate::referee::MatchState;
+use crate::referee::{MatchState, Orders, RobotState};
 use crate::rng::Seed;
-use crate::robot::{Robot, RobotBodies, RobotKind, Trailer, WheelCommand, jaws};
+use crate::robot::{DriveCommand, Robot, RobotBodies, RobotKind, Trailer, jaws};
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;
-use crate::teamwork::{Role, Swapping, TeamPicture};
+use crate::tcm::{Inbox, Tcm, TcmClient, TcmSettings};
+use crate::teamwork::{Booking, Role, Swapping, TeamPicture};
 use crate::world_model::WorldModel;
 
 /// Spawns the ball where the match begins.
@@ -60,6 +63,7 @@ pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, se
         pose: start.map_or_else(|| beside_the_pitch(&plan.pitch, id), |start| start.pose),
         told: start.is_some(),
         on: start.is_none_or(|start| start.on),
+        tcm: plan.tcm,
     };
     let (unit, trailer) = spawn_robot(world, &entry, clock);
     let handle = |entity: Entity| world.get::<RapierRigidBodyHandle>(entity).copied();
@@ -69,6 +73,9 @@ pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, se
     }
     if let Some(swapping) = Swapping::new(&team.strategy, id, seed) {
         world.entity_mut(unit).insert(swapping);
+    }
+    if let Some(booking) = Booking::new(&team.strategy, id, clock) {
+        world.entity_mut(unit).insert(booking);
     }
     if plan.pilot == Some(id) {
         world.entity_mut(unit).insert(Pilot::default());
@@ -89,6 +96,7 @@ struct Entry<'a> {
     /// Whether it has been told where it is.
     told: bool,
     on: bool,
+    tcm: TcmSettings,
 }
 
 /// Spawns a robot and its trailer; returns both.
@@ -108,16 +116,28 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
                 robot,
                 entry.pose,
                 Twist::default(),
-                WheelCommand::default(),
+                DriveCommand::idle(kind),
                 SteeringIntent::default(),
                 Contributions::default(),
                 MotorDice::new(entry.seed, entry.id),
             ),
             (
+                GaitError::new(entry.seed, entry.id),
+                Head::default(),
+                HeadIntent::default(),
+                Handling::new(entry.seed, entry.id),
+                KickIntent::default(),
+                Orders {
+                    state: if entry.told { RobotState::Playing } else { RobotState::Initial },
+                    place: None,
+                },
+            ),
+            (
                 Role(entry.role),
                 TeamPicture::new(entry.strategy),
                 Inbox::default(),
-                Outbox::default(),
+                TcmClient::new(entry.id, entry.tcm.queue),
+                Tcm::new(entry.tcm, clock),
                 Activity::new(entry.strategy, entry.role, 0),
                 Memory::new(entry.strategy.slots),
                 model,

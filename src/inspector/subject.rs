@@ -16,7 +16,7 @@ use crate::motor::{Contributions, SteeringIntent};
 use crate::pilot::Pilot;
 use crate::pitch::Pitch;
 use crate::referee::MatchState;
-use crate::robot::{OffPitch, Robot, WheelCommand};
+use crate::robot::{DriveCommand, OffPitch, Robot};
 use crate::sense::{Eyesight, Odometry, Percepts};
 use crate::strategy::{Assemblage, State, Strategies, Strategy};
 use crate::teamwork::Role;
@@ -38,7 +38,7 @@ pub struct Subject {
     pub odometry: &'static Odometry,
     pub contributions: &'static Contributions,
     pub intent: &'static SteeringIntent,
-    pub wheels: &'static WheelCommand,
+    pub command: &'static DriveCommand,
     pub piloted: Has<Pilot>,
     pub off_pitch: Has<OffPitch>,
 }

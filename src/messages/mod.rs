@@ -1,25 +1,29 @@
 //! What robots of a team say to each other, and how it crosses the radio: as bytes.
 //!
-//! The wire format is [postcard](https://postcard.jamesmunns.com/wire-format): a message is its kind as one byte, then its
-//! fields in their order; `u8` as they are, larger integers and lengths as little-endian base 128, `f32` as four
-//! little-endian bytes, `bool` and variants as one byte.
+//! Each type of message is one of the TCM's data types, serialised by
+//! [postcard](https://postcard.jamesmunns.com/wire-format): its fields in their order; `u8` as they are, larger integers and
+//! lengths as little-endian base 128, `f32` as four little-endian bytes, `bool` and variants as one byte.
 
-use std::fmt;
+mod kind;
 
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
-use smallvec::SmallVec;
 
-use crate::protocol::role_swap;
+pub use kind::MessageKind;
 
-/// A message of one robot to its team mates. The first three are those of figure 3, with its fields.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+use crate::protocol::{b3p, role_swap};
+use crate::tcm::{Data, DataType, Module};
+
+/// A message of one robot to its team mates. The first three are those of the Hammerheads' figure 3, with its fields.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Message {
     Position(Position),
     HaveBall(HaveBall),
     Goalie(GoalieNews),
     RoleSwap(role_swap::Message),
     Values(Values),
+    Book(Book),
+    BallReport(BallReport),
 }
 
 /// Where the sender is; sent by every player again and again.
@@ -83,102 +87,108 @@ pub struct Values {
     pub wish: Option<u8>,
 }
 
-/// What a message is about: what fault rules, filters and counters tell apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum MessageKind {
-    Position,
-    HaveBall,
-    Goalie,
-    Values,
-    Lock,
-    AckLock,
-    Swap,
-    AckSwap,
+/// The sender has booked the ball (TeamChaos, section 4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Book(pub b3p::Book);
+
+/// Where the sender sees the ball (TeamChaos, section 1).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BallReport {
+    /// Milliseconds on the sender's clock.
+    pub time: u32,
+    /// m in the team frame.
+    pub position: Vec2,
+    /// How long ago it was seen there, s.
+    pub age: f32,
 }
 
-impl Message {
-    pub fn kind(&self) -> MessageKind {
-        match self {
-            Message::Position(_) => MessageKind::Position,
-            Message::HaveBall(_) => MessageKind::HaveBall,
-            Message::Goalie(_) => MessageKind::Goalie,
-            Message::Values(_) => MessageKind::Values,
-            Message::RoleSwap(role_swap::Message::Lock { .. }) => MessageKind::Lock,
-            Message::RoleSwap(role_swap::Message::AckLock { .. }) => MessageKind::AckLock,
-            Message::RoleSwap(role_swap::Message::Swap { .. }) => MessageKind::Swap,
-            Message::RoleSwap(role_swap::Message::AckSwap { .. }) => MessageKind::AckSwap,
+/// A line for people to read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Text(pub String);
+
+/// Makes a type a data type of the TCM that is serialised by postcard. `$sound` says whether what was read makes sense.
+macro_rules! data {
+    ($type:ty, $number:expr, $module:expr, $name:literal, $kind:expr, $sound:expr) => {
+        data!($type, $number, $module, $name, $kind, $sound, |_| None);
+    };
+    ($type:ty, $number:expr, $module:expr, $name:literal, $kind:expr, $sound:expr, $sequence:expr) => {
+        impl Data for $type {
+            const TYPE: DataType = $number;
+            const MODULE: Module = $module;
+            const NAME: &'static str = $name;
+
+            fn serialise(&self) -> Vec<u8> {
+                // Fails for types of unknown length only, of which there are none here.
+                postcard::to_stdvec(self).unwrap_or_default()
+            }
+
+            fn unserialise(bytes: &[u8]) -> Option<$type> {
+                let (data, rest) = postcard::take_from_bytes::<$type>(bytes).ok()?;
+                let sound: fn(&$type) -> bool = $sound;
+                (rest.is_empty() && sound(&data)).then_some(data)
+            }
+
+            fn kind(&self) -> MessageKind {
+                let kind: fn(&$type) -> MessageKind = $kind;
+                kind(self)
+            }
+
+            fn sequence(&self) -> Option<role_swap::Sequence> {
+                let sequence: fn(&$type) -> Option<role_swap::Sequence> = $sequence;
+                sequence(self)
+            }
         }
-    }
-
-    /// The attempt that a message of the role swap belongs to.
-    pub fn sequence(&self) -> Option<role_swap::Sequence> {
-        match self {
-            Message::RoleSwap(message) => Some(message.sequence()),
-            _ => None,
-        }
-    }
-
-    /// The bytes that cross the radio.
-    pub fn encode(&self) -> Bytes {
-        // Serialising into a growing vector fails for types of unknown length only, of which there are none here.
-        postcard::to_extend(self, Bytes::new()).unwrap_or_default()
-    }
-
-    /// The message in these bytes.
-    ///
-    /// # Errors
-    /// If they are not a message from beginning to end, or hold a number that is not finite.
-    pub fn decode(bytes: &[u8]) -> Result<Message, NotAMessage> {
-        let (message, rest) = postcard::take_from_bytes::<Message>(bytes).map_err(|_| NotAMessage)?;
-        if rest.is_empty() && message.is_finite() { Ok(message) } else { Err(NotAMessage) }
-    }
-
-    fn is_finite(&self) -> bool {
-        match self {
-            Message::Position(position) => position.position.is_finite() && position.heading.is_finite(),
-            Message::Values(values) => values.values.iter().all(|value| value.is_finite()),
-            Message::HaveBall(_) | Message::Goalie(_) | Message::RoleSwap(_) => true,
-        }
-    }
+    };
 }
 
-/// An encoded message; most fit without an allocation.
-pub type Bytes = SmallVec<[u8; 40]>;
+data!(Position, DataType::POSITION, Module::WORLD_MODEL, "position", |_| MessageKind::Position, |position| {
+    position.position.is_finite() && position.heading.is_finite()
+});
+data!(HaveBall, DataType::HAVE_BALL, Module::CLAIMS, "have-ball", |_| MessageKind::HaveBall, |_| true);
+data!(GoalieNews, DataType::GOALIE_NEWS, Module::GOALIE, "goalie", |_| MessageKind::Goalie, |_| true);
+data!(
+    role_swap::Message,
+    DataType::ROLE_SWAP,
+    Module::ROLE_SWAP,
+    "role swap",
+    MessageKind::of_role_swap,
+    |_| true,
+    |message| Some(message.sequence())
+);
+data!(Values, DataType::VALUES, Module::POLICY, "values", |_| MessageKind::Values, |values| {
+    values.values.iter().all(|value| value.is_finite())
+});
+data!(Book, DataType::BOOK, Module::BALL_BOOKING, "book", |_| MessageKind::Book, |_| true);
+data!(
+    BallReport,
+    DataType::BALL_REPORT,
+    Module::WORLD_MODEL,
+    "ball report",
+    |_| MessageKind::BallReport,
+    |report| report.position.is_finite() && report.age.is_finite() && report.age >= 0.0
+);
+data!(Text, DataType::TEXT, Module::CHAOS_MANAGER, "text", |_| MessageKind::Other, |_| true);
 
-/// Bytes that are no message.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("these bytes are no message")]
-pub struct NotAMessage;
-
-impl MessageKind {
-    /// All kinds, in their order.
-    pub const ALL: [MessageKind; 8] = [
-        MessageKind::Position,
-        MessageKind::HaveBall,
-        MessageKind::Goalie,
-        MessageKind::Values,
-        MessageKind::Lock,
-        MessageKind::AckLock,
-        MessageKind::Swap,
-        MessageKind::AckSwap,
-    ];
+/// The union of the types that robots of a team exchange.
+macro_rules! into_message {
+    ($($variant:ident($type:ty)),*) => {
+        $(impl From<$type> for Message {
+            fn from(data: $type) -> Message {
+                Message::$variant(data)
+            }
+        })*
+    };
 }
 
-/// As the papers write them.
-impl fmt::Display for MessageKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            MessageKind::Position => "position",
-            MessageKind::HaveBall => "have-ball",
-            MessageKind::Goalie => "goalie",
-            MessageKind::Values => "values",
-            MessageKind::Lock => "LOCK",
-            MessageKind::AckLock => "ACKLOCK",
-            MessageKind::Swap => "SWAP",
-            MessageKind::AckSwap => "ACKSWAP",
-        })
-    }
-}
+into_message!(
+    Position(Position),
+    HaveBall(HaveBall),
+    Goalie(GoalieNews),
+    RoleSwap(role_swap::Message),
+    Values(Values),
+    Book(Book),
+    BallReport(BallReport)
+);
 
 #[cfg(test)]
 mod tests;

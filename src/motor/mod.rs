@@ -4,22 +4,27 @@
 //! single contributions are kept for people to see.
 
 mod evaluate;
+mod ready;
 #[cfg(test)]
 mod tests;
 
+use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
 use evaluate::evaluate;
+use ready::walk_to_place;
 
 use crate::ball::Ball;
 use crate::behaviour::{Activity, Mind, perception};
 use crate::clock::Clock;
 use crate::geometry::{angle, wrap_angle};
+use crate::handling::KickIntent;
 use crate::ids::RobotId;
 use crate::perception::{Memory, Perception};
 use crate::pitch::Pitch;
+use crate::referee::RobotState;
 use crate::rng::{Dice, Seed};
-use crate::robot::OffPitch;
+use crate::robot::{OffPitch, RobotKind};
 use crate::schedule::{Tick, TickSystems};
 use crate::schemas::combine::{weighted_sum, winner_take_all};
 use crate::strategy::{Assemblage, Combination, State, Strategies, Turn};
@@ -34,7 +39,8 @@ pub enum SteeringIntent {
     #[default]
     Stop,
     /// A heading in radians, and a share of the top speed from -1 to 1; 0 turns on the spot, negative drives in reverse.
-    Steer { heading: f32, speed: f32 },
+    /// Legs can walk along one heading and face another meanwhile; wheels cannot.
+    Steer { heading: f32, facing: f32, speed: f32 },
     /// Turn on the spot, rad/s.
     Spin(f32),
 }
@@ -62,7 +68,15 @@ const STANDSTILL: f32 = 0.05;
 /// Slowest that a robot with somewhere to go drives, as a share of its activity's speed.
 const CRAWL: f32 = 0.25;
 
-type Moved<'a> = (Mind, &'a Activity, &'a mut SteeringIntent, &'a mut Contributions, &'a mut MotorDice);
+type Moved<'a> = (Mind, &'a Activity, Intents, &'a mut Contributions, &'a mut MotorDice);
+
+/// What a robot wants its motors to do.
+#[derive(QueryData)]
+#[query_data(mutable)]
+struct Intents {
+    steering: &'static mut SteeringIntent,
+    kick: &'static mut KickIntent,
+}
 
 fn run_assemblages(
     clock: Res<Clock>,
@@ -71,7 +85,7 @@ fn run_assemblages(
     ball: Single<&Ball>,
     mut robots: Query<Moved, Without<OffPitch>>,
 ) {
-    for (mut mind, activity, mut intent, mut contributions, mut dice) in &mut robots {
+    for (mut mind, activity, mut intents, mut contributions, mut dice) in &mut robots {
         let wits = &mind.wits;
         if !wits.robot.decides(&clock) {
             continue;
@@ -89,7 +103,14 @@ fn run_assemblages(
                 contributions.sum = Vec2::ZERO;
             }
         }
-        *intent = intend(contributions.sum, state, &senses, memory, wits.odometry.pose.heading);
+        if let (RobotState::Ready, Some(place)) = (wits.orders.state, wits.orders.place) {
+            contributions.vectors.clear();
+            *intents.kick = KickIntent::Nothing;
+            *intents.steering = walk_to_place(wits.model, place, wits.odometry.pose.heading);
+            continue;
+        }
+        *intents.kick = kick_of(state, &wits.robot.kind);
+        *intents.steering = intend(contributions.sum, state, &senses, memory, wits.odometry.pose.heading);
     }
 }
 
@@ -112,6 +133,16 @@ fn combine(
     };
 }
 
+/// What a state wants done to the ball, as far as a robot's kind can do it.
+fn kick_of(state: &State, kind: &RobotKind) -> KickIntent {
+    let index = |name: &String| kind.kicks.keys().position(|known| known == name);
+    match state.kicks.iter().find_map(index) {
+        Some(index) => KickIntent::Kick(index),
+        None if state.hold && kind.chin.is_some() => KickIntent::Hold,
+        None => KickIntent::Nothing,
+    }
+}
+
 /// From the vector of an assemblage to what the drive is told.
 fn intend(
     sum: Vec2,
@@ -122,20 +153,25 @@ fn intend(
 ) -> SteeringIntent {
     let turned =
         |direction: Vec2| odometry_heading + wrap_angle(angle(direction) - senses.model.pose.heading);
+    let faced = match &state.turn {
+        Turn::Face(point) => senses.relative(point, memory).filter(|offset| *offset != Vec2::ZERO),
+        Turn::Stay | Turn::Spin(_) => None,
+    };
     if sum.length() >= STANDSTILL {
         let speed = state.speed * sum.length().clamp(CRAWL, 1.0);
         let speed = if state.reverse { -speed } else { speed };
-        return SteeringIntent::Steer { heading: turned(if state.reverse { -sum } else { sum }), speed };
+        let heading = turned(if state.reverse { -sum } else { sum });
+        return SteeringIntent::Steer { heading, facing: faced.map_or(heading, turned), speed };
     }
     if state.assemblage.is_none() && state.reverse {
-        return SteeringIntent::Steer { heading: odometry_heading, speed: -state.speed };
+        let heading = odometry_heading;
+        return SteeringIntent::Steer { heading, facing: heading, speed: -state.speed };
     }
     match &state.turn {
-        Turn::Stay => SteeringIntent::Stop,
         Turn::Spin(rate) => SteeringIntent::Spin(*rate),
-        Turn::Face(point) => match senses.relative(point, memory).filter(|offset| *offset != Vec2::ZERO) {
-            Some(offset) => SteeringIntent::Steer { heading: turned(offset), speed: 0.0 },
-            None => SteeringIntent::Stop,
-        },
+        Turn::Stay | Turn::Face(_) => faced.map_or(SteeringIntent::Stop, |offset| {
+            let heading = turned(offset);
+            SteeringIntent::Steer { heading, facing: heading, speed: 0.0 }
+        }),
     }
 }

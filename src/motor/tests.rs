@@ -12,7 +12,17 @@ const ODOMETRY: f32 = 1.0;
 
 fn driving(speed: f32) -> State {
     let (name, transitions) = ("test".into(), vec![]);
-    State { name, assemblage: Some(0), speed, reverse: false, turn: Turn::Stay, acquires: false, transitions }
+    State {
+        name,
+        assemblage: Some(0),
+        speed,
+        reverse: false,
+        turn: Turn::Stay,
+        acquires: false,
+        hold: false,
+        kicks: vec![],
+        transitions,
+    }
 }
 
 /// What a robot intends that looks along +y with the ball at (2, 0).
@@ -25,7 +35,7 @@ fn intent(sum: Vec2, state: &State) -> SteeringIntent {
 #[track_caller]
 fn steered(intent: SteeringIntent) -> (f32, f32) {
     match intent {
-        SteeringIntent::Steer { heading, speed } => (wrap_angle(heading - ODOMETRY), speed),
+        SteeringIntent::Steer { heading, speed, .. } => (wrap_angle(heading - ODOMETRY), speed),
         _ => panic!("{intent:?} does not steer"),
     }
 }

@@ -90,6 +90,7 @@ impl Situation {
             now: self.now,
             ball_age: self.ball_age,
             time_in_state: self.time_in_state,
+            holds_ball: false,
             stalled_for: self.stalled_for,
             front: Situation::FRONT,
             ball_radius: Situation::BALL_RADIUS,

@@ -23,7 +23,7 @@ use crate::schemas::operators::{
 };
 use crate::strategy::language::{Feature, Point, Points, ZoneName};
 use crate::strategy::teamwork::{Mechanism, Teamwork};
-use crate::teamwork::TeamPicture;
+use crate::teamwork::{Standing, TeamPicture};
 use crate::world_model::{EXPECTED_ROLLING, WorldModel, roll_on};
 
 /// A set of points in the team frame. Few enough to need no allocation.
@@ -47,6 +47,8 @@ pub struct Perception<'a> {
     pub ball_age: Option<f32>,
     /// Seconds in the present state.
     pub time_in_state: f32,
+    /// Whether the robot's chin holds the ball.
+    pub holds_ball: bool,
     /// Seconds for which the wheels have turned in vain.
     pub stalled_for: f32,
     /// From the robot's centre to its front and the radius of the ball, m.
@@ -71,6 +73,7 @@ impl Perception<'_> {
     pub fn point(&self, point: &Point, memory: &mut Memory) -> Option<Vec2> {
         match point {
             Point::Ball => Some(self.model.ball?.position),
+            Point::TeamBall => self.model.ball.map(|ball| ball.position).or(self.picture.reports.freshest()),
             Point::BallIn(seconds) => {
                 let ball = self.model.ball?;
                 Some(roll_on(ball.position, ball.velocity, EXPECTED_ROLLING, *seconds).0)
@@ -80,6 +83,10 @@ impl Perception<'_> {
             Point::Homebase => Some(self.homebase),
             Point::Own => Some(self.own().position),
             Point::Carrier => self.carrier(),
+            Point::Booker => match self.picture.booking {
+                Standing::Mate(number) => Some(self.model.mate(number)?.position),
+                Standing::Free | Standing::Own => None,
+            },
             Point::Teammate(role) => Some(self.model.mate(self.picture.holder_of(role.index)?)?.position),
             Point::SupportSpot { behind, aside } => self.support_spot(*behind, *aside),
             Point::AwayFromGoalie { x, y } => {
@@ -216,6 +223,9 @@ impl Perception<'_> {
                 .picture
                 .carrier
                 .is_some_and(|(_, role)| roles.is_empty() || roles.iter().any(|wanted| wanted.index == role)),
+            Feature::HasBooked => self.picture.booking == Standing::Own,
+            Feature::TeammateHasBooked => matches!(self.picture.booking, Standing::Mate(_)),
+            Feature::HoldsBall => self.holds_ball,
             Feature::GoalieIsOut => self.teamwork.has(Mechanism::GoalieSupport) && self.picture.goalie.is_out,
             Feature::Stalled(seconds) => self.stalled_for >= *seconds,
             Feature::After(seconds) => self.time_in_state >= *seconds,

@@ -1,5 +1,5 @@
-//! The radio: the Deliver stage, which brings messages that are due to their robots, and the Transmit stage, which puts what
-//! robots want to say on air. A message in flight is an entity, and it flies as bytes.
+//! The simulated radio, a carrier of the TCM's datagrams: in the Deliver stage it brings those that are due to their robots, in
+//! the Transmit stage it puts others on air. A datagram in flight is an entity.
 
 mod channel;
 mod conditions;
@@ -11,6 +11,8 @@ mod packet;
 mod preset;
 #[cfg(test)]
 mod tests;
+
+use std::sync::Arc;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
@@ -28,58 +30,14 @@ pub use preset::Radio;
 use crate::clock::Clock;
 use crate::geometry::Pose;
 use crate::ids::{MatchEntity, RobotId};
-use crate::messages::{Bytes, Message, MessageKind};
-use crate::protocol::role_swap::Number;
+use crate::messages::MessageKind;
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
+use crate::tcm::{Datagram, Incoming, OnAir, TcmSystems, as_robot};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, deliver_messages.in_set(TickSystems::Deliver))
-        .add_systems(Tick, transmit_messages.in_set(TickSystems::Transmit));
-}
-
-/// What a robot wants to say; filled by the Teamwork stage, emptied by the Transmit stage.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Outbox(SmallVec<[Outgoing; 4]>);
-
-#[derive(Clone, Debug)]
-struct Outgoing {
-    to: Recipient,
-    message: Message,
-}
-
-/// Whom a message is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Recipient {
-    Team,
-    Mate(Number),
-}
-
-impl Outbox {
-    /// To every team mate.
-    pub fn broadcast(&mut self, message: Message) {
-        self.0.push(Outgoing { to: Recipient::Team, message });
-    }
-
-    /// To one team mate.
-    pub fn send(&mut self, to: Number, message: Message) {
-        self.0.push(Outgoing { to: Recipient::Mate(to), message });
-    }
-
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
-}
-
-/// What a robot has heard since its last decision, in the order of arrival; written by the Deliver stage.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Inbox(pub Vec<Received>);
-
-/// A message that arrived.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Received {
-    pub from: Number,
-    pub message: Message,
+    app.add_systems(Tick, deliver_datagrams.in_set(TickSystems::Deliver).before(TcmSystems::Receive))
+        .add_systems(Tick, transmit_datagrams.in_set(TickSystems::Transmit).after(TcmSystems::Send));
 }
 
 /// On a message in flight: all that the radio knows of it.
@@ -99,10 +57,10 @@ pub struct Envelope {
     pub late: bool,
 }
 
-/// On a message in flight: what it says.
+/// On a message in flight: the datagram.
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable)]
-pub struct Payload(pub Bytes);
+pub struct Payload(pub Arc<[u8]>);
 
 /// The state of the air in a match: what becomes of messages, and what became of them.
 #[derive(SystemParam)]
@@ -117,18 +75,11 @@ pub struct Air<'w> {
 
 impl Air<'_> {
     /// Puts one packet on air: what the channel lets through becomes messages in flight.
-    fn send(
-        &mut self,
-        packet: &Packet,
-        message: &Message,
-        bytes: &Bytes,
-        clock: &Clock,
-        commands: &mut Commands,
-    ) {
+    fn send(&mut self, packet: &Packet, datagram: &Datagram, clock: &Clock, commands: &mut Commands) {
         let fate = self.channel.send(packet, &self.conditions, &mut self.faults, clock);
         self.traffic.send(packet, &fate);
         self.counts.count_sent(packet.kind, packet.from, packet.to);
-        let id = self.log.sent(packet, message.sequence(), &fate, clock.tick);
+        let id = self.log.sent(packet, datagram.sequence, &fate, clock.tick);
         for copy in &fate.copies {
             commands.spawn((
                 Envelope {
@@ -140,88 +91,70 @@ impl Air<'_> {
                     due: copy.due,
                     late: copy.late,
                 },
-                Payload(bytes.clone()),
+                Payload(datagram.bytes.clone()),
                 MatchEntity,
             ));
         }
     }
 
     /// A mute robot's packet.
-    fn stifle(&mut self, packet: &Packet, message: &Message, clock: &Clock) {
+    fn stifle(&mut self, packet: &Packet, datagram: &Datagram, clock: &Clock) {
         let fate = Fate::lost(Loss::Mute);
         self.traffic.send(packet, &fate);
-        self.log.sent(packet, message.sequence(), &fate, clock.tick);
+        self.log.sent(packet, datagram.sequence, &fate, clock.tick);
     }
 }
 
-fn deliver_messages(
+fn deliver_datagrams(
     clock: Res<Clock>,
     mut commands: Commands,
     (mut traffic, mut counts, mut log): (ResMut<Traffic>, ResMut<MessageCounts>, ResMut<RadioLog>),
+    mut incoming: ResMut<Incoming>,
     in_flight: Query<(Entity, &Envelope, &Payload)>,
-    mut robots: Query<(&RobotId, &Robot, &mut Inbox)>,
+    robots: Query<(&RobotId, &Robot)>,
 ) {
-    for (_, robot, mut inbox) in &mut robots {
-        let was_read = clock.tick > 0 && robot.is_due(clock.tick - 1);
-        if (was_read || !robot.condition.hears()) && !inbox.0.is_empty() {
-            inbox.0.clear();
-        }
-    }
     let due = in_flight.iter().filter(|(_, envelope, _)| envelope.due <= clock.tick);
     let mut due: SmallVec<[_; 8]> = due.collect();
     due.sort_unstable_by_key(|(_, envelope, _)| (envelope.due, envelope.id));
     for (entity, envelope, payload) in due {
         commands.entity(entity).despawn();
-        let to = robots.iter_mut().find(|(id, ..)| **id == envelope.to);
-        let Some((_, _, mut inbox)) = to.filter(|(_, robot, _)| robot.condition.hears()) else {
+        let to = robots.iter().find(|(id, _)| **id == envelope.to);
+        if !to.is_some_and(|(_, robot)| robot.condition.hears()) {
             traffic.lose(envelope.from, envelope.to, Loss::Deaf);
             log.lost(envelope.id, Loss::Deaf);
             continue;
-        };
+        }
         traffic.deliver(envelope.from, envelope.to);
         counts.count_delivered(envelope.kind, envelope.from, envelope.to);
         log.arrived(envelope.id, clock.tick);
-        if let Ok(message) = Message::decode(&payload.0) {
-            inbox.0.push(Received { from: envelope.from.number, message });
-        }
+        incoming.0.push((envelope.to, payload.0.clone()));
     }
 }
 
-type Speaking<'a> = (&'a RobotId, &'a Robot, &'a Pose, &'a mut Outbox);
-
-fn transmit_messages(clock: Res<Clock>, mut air: Air, mut commands: Commands, mut robots: Query<Speaking>) {
+fn transmit_datagrams(
+    clock: Res<Clock>,
+    mut on_air: ResMut<OnAir>,
+    mut air: Air,
+    mut commands: Commands,
+    robots: Query<(&RobotId, &Robot, &Pose)>,
+) {
     air.log.forget(&clock);
-    if robots.iter().all(|(.., outbox)| outbox.0.is_empty()) {
-        return;
-    }
-    let mut places: SmallVec<[(RobotId, Vec2); 16]> =
-        robots.iter().map(|(id, _, pose, _)| (*id, pose.position)).collect();
-    places.sort_unstable_by_key(|(id, _)| *id);
-    for (id, robot, pose, mut outbox) in robots.iter_mut().sort::<&RobotId>() {
-        for Outgoing { to, message } in std::mem::take(&mut outbox.0) {
-            let bytes = message.encode();
-            for (mate, place) in places.iter().filter(|(mate, _)| reaches(*id, to, *mate)) {
-                let packet = Packet {
-                    kind: message.kind(),
-                    from: *id,
-                    to: *mate,
-                    bytes: bytes.len(),
-                    distance: pose.position.distance(*place),
-                };
-                if robot.condition.mute {
-                    air.stifle(&packet, &message, &clock);
-                } else {
-                    air.send(&packet, &message, &bytes, &clock, &mut commands);
-                }
-            }
+    for datagram in on_air.0.drain(..) {
+        let robot = |wanted: RobotId| robots.iter().find(|(id, ..)| **id == wanted);
+        // Computers have no antenna in a simulated match.
+        let Some((to, _, place)) = as_robot(datagram.to).and_then(robot) else { continue };
+        let Some((from, sender, pose)) = robot(datagram.from) else { continue };
+        let packet = Packet {
+            kind: datagram.kind,
+            from: *from,
+            to: *to,
+            bytes: datagram.bytes.len(),
+            distance: pose.position.distance(place.position),
+        };
+        if sender.condition.mute {
+            air.stifle(&packet, &datagram, &clock);
+        } else {
+            air.send(&packet, &datagram, &clock, &mut commands);
         }
     }
-}
-
-fn reaches(from: RobotId, to: Recipient, mate: RobotId) -> bool {
-    let is_meant = match to {
-        Recipient::Team => true,
-        Recipient::Mate(number) => number == mate.number,
-    };
-    is_meant && mate.team == from.team && mate != from
 }

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use super::*;
 use crate::ids::Team::{Away, Home};
-use crate::messages::HaveBall;
+use crate::messages::{HaveBall, Message};
 use crate::perception::fixture::{cye, perfect_radio};
 use crate::rng::Seed;
 use crate::robot::Ailment;
 use crate::schedule;
+use crate::tcm::{self, Addresses, Directory, Inbox, Received, Tcm, TcmClient, TcmSettings};
 
 fn home(number: u8) -> RobotId {
     RobotId::new(Home, number)
@@ -17,10 +18,12 @@ fn home(number: u8) -> RobotId {
 /// Robots 0 to 2 of home and 0 of away, 1 m apart, with this radio.
 fn app(radio: Radio) -> App {
     let mut app = App::new();
-    app.add_plugins((schedule::plugin, plugin));
+    app.add_plugins((schedule::plugin, tcm::plugin, plugin));
     app.insert_resource(Channel::new(Seed(1), radio));
     app.init_resource::<Conditions>().init_resource::<FaultRules>().init_resource::<Traffic>();
     app.init_resource::<MessageCounts>().init_resource::<RadioLog>();
+    let directory = Directory::loopback(7400, &[3, 1]).expect("there are ports enough");
+    app.insert_resource(Addresses(directory));
     let clock = *app.world().resource::<Clock>();
     for (i, id) in [home(0), home(1), home(2), RobotId::new(Away, 0)].into_iter().enumerate() {
         let robot = Robot::new(Arc::new(cye()), &clock);
@@ -29,7 +32,8 @@ fn app(radio: Radio) -> App {
             robot,
             Pose::new(i as f32, 0.0, 0.0),
             Inbox::default(),
-            Outbox::default(),
+            TcmClient::new(id, TcmSettings::default().queue),
+            Tcm::new(TcmSettings::default(), &clock),
         ));
     }
     app
@@ -40,8 +44,8 @@ fn tick(app: &mut App) {
     app.world_mut().resource_mut::<Clock>().tick += 1;
 }
 
-fn say(app: &mut App, from: RobotId, what: impl Fn(&mut Outbox)) {
-    let mut robots = app.world_mut().query::<(&RobotId, &mut Outbox)>();
+fn say(app: &mut App, from: RobotId, what: impl Fn(&mut TcmClient)) {
+    let mut robots = app.world_mut().query::<(&RobotId, &mut TcmClient)>();
     let speaker = robots.iter_mut(app.world_mut()).find(|(id, _)| **id == from);
     what(&mut speaker.expect("the robot exists").1);
 }
@@ -57,14 +61,14 @@ fn heard(app: &mut App, robot: RobotId) -> Vec<u32> {
     inbox.0.iter().map(time).collect()
 }
 
-fn message(time: u32) -> Message {
-    Message::HaveBall(HaveBall { time, robot: 0, have_ball: true, role: 0 })
+fn message(time: u32) -> HaveBall {
+    HaveBall { time, robot: 0, have_ball: true, role: 0 }
 }
 
 #[test]
 fn a_broadcast_reaches_the_team_mates_in_the_next_tick_and_nobody_else() {
     let mut app = app(perfect_radio());
-    say(&mut app, home(0), |outbox| outbox.broadcast(message(7)));
+    say(&mut app, home(0), |client| client.broadcast(&message(7)));
     tick(&mut app);
     assert!(heard(&mut app, home(1)).is_empty(), "a message takes a tick at least");
     tick(&mut app);
@@ -75,7 +79,7 @@ fn a_broadcast_reaches_the_team_mates_in_the_next_tick_and_nobody_else() {
 #[test]
 fn what_is_for_one_reaches_one_and_waits_for_its_next_decision() {
     let mut app = app(perfect_radio());
-    say(&mut app, home(0), |outbox| outbox.send(2, message(1)));
+    say(&mut app, home(0), |client| client.send(2, &message(1)));
     for _ in 0..4 {
         tick(&mut app);
     }
@@ -88,9 +92,9 @@ fn what_is_for_one_reaches_one_and_waits_for_its_next_decision() {
 fn messages_that_are_due_together_arrive_in_the_order_of_their_sending() {
     let mut app = app(perfect_radio());
     for sender in [1, 0] {
-        say(&mut app, home(sender), |outbox| {
-            outbox.send(2, message(10 * u32::from(sender)));
-            outbox.send(2, message(10 * u32::from(sender) + 1));
+        say(&mut app, home(sender), |client| {
+            client.send(2, &message(10 * u32::from(sender)));
+            client.send(2, &message(10 * u32::from(sender) + 1));
         });
     }
     tick(&mut app);
@@ -101,7 +105,7 @@ fn messages_that_are_due_together_arrive_in_the_order_of_their_sending() {
 #[test]
 fn a_robot_that_fell_deaf_while_a_message_was_in_flight_does_not_hear_it() {
     let mut app = app(perfect_radio());
-    say(&mut app, home(0), |outbox| outbox.broadcast(message(7)));
+    say(&mut app, home(0), |client| client.broadcast(&message(7)));
     tick(&mut app);
     let mut robots = app.world_mut().query::<(&RobotId, &mut Robot)>();
     for (_, mut robot) in robots.iter_mut(app.world_mut()).filter(|(id, _)| **id == home(1)) {
@@ -117,7 +121,7 @@ fn a_robot_that_fell_deaf_while_a_message_was_in_flight_does_not_hear_it() {
 #[test]
 fn the_log_forgets_what_is_older_than_a_minute() {
     let mut app = app(perfect_radio());
-    say(&mut app, home(0), |outbox| outbox.broadcast(message(7)));
+    say(&mut app, home(0), |client| client.broadcast(&message(7)));
     tick(&mut app);
     assert_eq!(app.world().resource::<RadioLog>().entries().count(), 2);
     app.world_mut().resource_mut::<Clock>().tick += 3600;

@@ -1,6 +1,7 @@
 //! The Record stage: the digest of all that happens, and figures about a match. Reads everything, changes nothing else; the
 //! clock moves on at its end.
 
+mod bookings;
 #[cfg(test)]
 mod tests;
 
@@ -9,6 +10,8 @@ use std::hash::BuildHasher;
 use bevy::prelude::*;
 use serde::Serialize;
 use xxhash_rust::xxh3::{Xxh3DefaultBuilder, xxh3_64_with_seed};
+
+pub use bookings::{BookingFigures, PING_PONG, Span};
 
 use crate::ball::Ball;
 use crate::behaviour::Activity;
@@ -23,7 +26,8 @@ use crate::schedule::{Tick, TickSystems};
 use crate::teamwork::{Role, Swapping};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, (digest, measure, move_clock).chain().in_set(TickSystems::Record));
+    let systems = (digest, measure, bookings::watch_bookings, move_clock).chain();
+    app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
 
 /// Figures about the match so far.
@@ -36,6 +40,10 @@ pub struct Record {
     pub possession: [f64; 2],
     /// Seconds with two or more robots of a team within [`CROWD`] of the ball, home first.
     pub crowding: [f64; 2],
+    /// Seconds with two or more robots of a team within [`AGGLOMERATION`] of the ball, home first.
+    pub agglomeration: [f64; 2],
+    /// How well each team's ball booking has worked, home first.
+    pub bookings: [BookingFigures; 2],
     /// Seconds of play.
     pub played: f64,
     /// Metres driven by each robot, by robot in order.
@@ -48,6 +56,8 @@ pub struct Record {
 const POSSESSION: f32 = 0.5;
 /// Two team mates nearer to the ball than this crowd it, m.
 pub const CROWD: f32 = 1.0;
+/// Two small robots nearer to the ball than this are an agglomeration (TeamChaos, section 5), m.
+pub const AGGLOMERATION: f32 = 0.5;
 
 impl Record {
     /// An empty record of a match between these robots, in order.
@@ -56,6 +66,8 @@ impl Record {
             digest: seed.0,
             possession: [0.0; 2],
             crowding: [0.0; 2],
+            agglomeration: [0.0; 2],
+            bookings: [BookingFigures::default(); 2],
             played: 0.0,
             driven: robots.into_iter().map(|robot| (robot, 0.0)).collect(),
             last_near: None,
@@ -129,11 +141,12 @@ fn measure(
     }
     let dt = f64::from(clock.dt);
     record.played += dt;
-    let mut near = [0; 2];
+    let (mut near, mut at_ball) = ([0; 2], [0; 2]);
     let mut nearest: Option<(f32, RobotId)> = None;
     for (&id, pose, twist) in &robots {
         let distance = pose.position.distance(ball.position);
         near[id.team.index()] += usize::from(distance < CROWD);
+        at_ball[id.team.index()] += usize::from(distance < AGGLOMERATION);
         if distance < POSSESSION && nearest.is_none_or(|best| (distance, id) < best) {
             nearest = Some((distance, id));
         }
@@ -148,6 +161,9 @@ fn measure(
     for team in Team::BOTH {
         if near[team.index()] >= 2 {
             record.crowding[team.index()] += dt;
+        }
+        if at_ball[team.index()] >= 2 {
+            record.agglomeration[team.index()] += dt;
         }
     }
 }

@@ -4,6 +4,7 @@ use super::*;
 use crate::ids::Team::{Away, Home};
 use crate::perception::fixture::BALL;
 use crate::referee::RuleBook;
+use crate::strategy::Strategies;
 
 fn record(seed: u64) -> Record {
     Record::new(
@@ -22,6 +23,8 @@ fn app() -> App {
     app.insert_resource(Clock::new(60.0));
     app.insert_resource(state);
     app.init_resource::<RadioLog>();
+    let strategy = std::sync::Arc::new(crate::perception::fixture::idle());
+    app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.world_mut().spawn((Ball { kind: BALL }, Pose::default()));
     robot(&mut app, Home, 0, 3.0);
     robot(&mut app, Away, 0, -3.0);

@@ -2,8 +2,13 @@
 //!
 //! Lengths are metres, masses kilograms, forces newtons, angles degrees. A body's origin is its drive unit's centre.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
+
+use super::legs::{Chin, Kick, Neck, Walker};
+use crate::data::Bounds;
 
 /// One kind of robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,8 +19,17 @@ pub struct RobotKind {
     pub control_hz: f32,
     pub body: Body,
     pub drive: Drive,
+    #[serde(default)]
     pub trailer: Option<TrailerKind>,
+    #[serde(default)]
     pub scoop: Option<Scoop>,
+    #[serde(default)]
+    pub neck: Option<Neck>,
+    #[serde(default)]
+    pub chin: Option<Chin>,
+    /// By name.
+    #[serde(default)]
+    pub kicks: BTreeMap<String, Kick>,
 }
 
 /// The rigid body that carries the camera: a box.
@@ -30,11 +44,12 @@ pub struct Body {
     pub restitution: f32,
 }
 
-/// How a robot moves. An omnidirectional walker joins here.
+/// How a robot moves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Drive {
     Differential(DifferentialDrive),
+    Walker(Walker),
 }
 
 /// Two driven wheels on one axle under the body's centre.
@@ -100,57 +115,40 @@ pub struct Scoop {
 impl RobotKind {
     /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound robot.
     pub fn fault(&self) -> Option<(&'static str, String)> {
-        let Drive::Differential(drive) = self.drive;
-        let mut positive = vec![
-            ("control_hz", self.control_hz),
-            ("body.length", self.body.length),
-            ("body.width", self.body.width),
-            ("body.mass", self.body.mass),
-            ("drive.track", drive.track),
-            ("drive.max_speed", drive.max_speed),
-            ("drive.acceleration", drive.acceleration),
-            ("drive.wheel_force", drive.wheel_force),
-            ("drive.grip", drive.grip),
-            ("drive.turn_gain", drive.turn_gain),
-            ("drive.turn_rate", drive.turn_rate),
+        let parts = [
+            Some(self.body_bounds()),
+            Some(match &self.drive {
+                Drive::Differential(drive) => drive.bounds(),
+                Drive::Walker(walker) => walker.bounds(),
+            }),
+            self.trailer.as_ref().map(TrailerKind::bounds),
+            self.scoop.as_ref().map(Scoop::bounds),
+            self.neck.as_ref().map(Neck::bounds),
+            self.chin.as_ref().map(Chin::bounds),
         ];
-        let mut not_negative = vec![
-            ("body.friction", self.body.friction),
-            ("body.restitution", self.body.restitution),
-            ("drive.dead_band", drive.dead_band),
-        ];
-        if let Some(trailer) = &self.trailer {
-            positive.extend([("trailer.mass", trailer.mass), ("trailer.axle", trailer.axle)]);
-            not_negative.extend([
-                ("trailer.grip", trailer.grip),
-                ("trailer.rolling", trailer.rolling),
-                ("trailer.friction", trailer.friction),
-                ("trailer.restitution", trailer.restitution),
-            ]);
+        let kicks = self.kicks.values().map(Kick::bounds);
+        let fault = parts.into_iter().flatten().chain(kicks).find_map(Bounds::fault);
+        fault.or_else(|| {
+            let outline = &self.trailer.as_ref()?.outline;
+            (outline.len() < 3 || outline.iter().any(|corner| !corner.is_finite()))
+                .then(|| ("trailer.outline", "needs at least three corners, all of them finite".into()))
+        })
+    }
+
+    fn body_bounds(&self) -> Bounds {
+        Bounds {
+            positive: vec![
+                ("control_hz", self.control_hz),
+                ("body.length", self.body.length),
+                ("body.width", self.body.width),
+                ("body.mass", self.body.mass),
+            ],
+            at_least_0: vec![
+                ("body.friction", self.body.friction),
+                ("body.restitution", self.body.restitution),
+            ],
+            shares: vec![],
         }
-        if let Some(scoop) = self.scoop {
-            positive.extend([
-                ("scoop.depth", scoop.depth),
-                ("scoop.half_gap", scoop.half_gap),
-                ("scoop.jaw", scoop.jaw),
-            ]);
-            not_negative.extend([
-                ("scoop.hold_force", scoop.hold_force),
-                ("scoop.hold_stiffness", scoop.hold_stiffness),
-                ("scoop.hold_damping", scoop.hold_damping),
-                ("scoop.hold_reach", scoop.hold_reach),
-                ("scoop.hold_half_width", scoop.hold_half_width),
-            ]);
-        }
-        if let Some((field, value)) = positive.into_iter().find(|(_, v)| !(v.is_finite() && *v > 0.0)) {
-            return Some((field, format!("must be a positive number, not {value}")));
-        }
-        if let Some((field, value)) = not_negative.into_iter().find(|(_, v)| !(v.is_finite() && *v >= 0.0)) {
-            return Some((field, format!("must not be negative, but is {value}")));
-        }
-        let outline = &self.trailer.as_ref()?.outline;
-        (outline.len() < 3 || outline.iter().any(|corner| !corner.is_finite()))
-            .then(|| ("trailer.outline", "needs at least three corners, all of them finite".into()))
     }
 
     /// The radius of a circle around the drive unit that holds body and jaws, m.
@@ -161,7 +159,70 @@ impl RobotKind {
 
     /// The fastest that the robot drives, m/s.
     pub fn max_speed(&self) -> f32 {
-        let Drive::Differential(drive) = self.drive;
-        drive.max_speed
+        match self.drive {
+            Drive::Differential(drive) => drive.max_speed,
+            Drive::Walker(walker) => walker.ahead,
+        }
+    }
+
+    /// The fastest that the robot turns, rad/s.
+    pub fn max_turn(&self) -> f32 {
+        match self.drive {
+            Drive::Differential(drive) => drive.turn_rate.to_radians(),
+            Drive::Walker(walker) => walker.turn.to_radians(),
+        }
+    }
+}
+
+impl DifferentialDrive {
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            positive: vec![
+                ("drive.track", self.track),
+                ("drive.max_speed", self.max_speed),
+                ("drive.acceleration", self.acceleration),
+                ("drive.wheel_force", self.wheel_force),
+                ("drive.grip", self.grip),
+                ("drive.turn_gain", self.turn_gain),
+                ("drive.turn_rate", self.turn_rate),
+            ],
+            at_least_0: vec![("drive.dead_band", self.dead_band)],
+            shares: vec![],
+        }
+    }
+}
+
+impl TrailerKind {
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            positive: vec![("trailer.mass", self.mass), ("trailer.axle", self.axle)],
+            at_least_0: vec![
+                ("trailer.grip", self.grip),
+                ("trailer.rolling", self.rolling),
+                ("trailer.friction", self.friction),
+                ("trailer.restitution", self.restitution),
+            ],
+            shares: vec![],
+        }
+    }
+}
+
+impl Scoop {
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            positive: vec![
+                ("scoop.depth", self.depth),
+                ("scoop.half_gap", self.half_gap),
+                ("scoop.jaw", self.jaw),
+            ],
+            at_least_0: vec![
+                ("scoop.hold_force", self.hold_force),
+                ("scoop.hold_stiffness", self.hold_stiffness),
+                ("scoop.hold_damping", self.hold_damping),
+                ("scoop.hold_reach", self.hold_reach),
+                ("scoop.hold_half_width", self.hold_half_width),
+            ],
+            shares: vec![],
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
 mod condition;
+mod gait;
 mod kind;
+mod legs;
 mod wheel_speeds;
 
 use std::sync::Arc;
@@ -10,7 +12,9 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
 pub use condition::{Ailment, Condition, Recall};
+pub use gait::Gait;
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
+pub use legs::{Chin, GaitNoise, Kick, Neck, Walker};
 pub use wheel_speeds::WheelSpeeds;
 
 use crate::clock::Clock;
@@ -53,10 +57,37 @@ pub struct Trailer {
     pub radius: f32,
 }
 
-/// The wheel speeds that a robot's motors are told, after the limit of acceleration. Written by the Drive stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-pub struct WheelCommand {
-    pub speeds: WheelSpeeds,
+/// What a robot's motors are told, after the limits of acceleration. Written by the Drive stage.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub enum DriveCommand {
+    Wheels(WheelSpeeds),
+    Gait(Gait),
+}
+
+impl DriveCommand {
+    /// A robot that is told to stand.
+    pub fn idle(kind: &RobotKind) -> DriveCommand {
+        match kind.drive {
+            Drive::Differential(_) => DriveCommand::Wheels(WheelSpeeds::default()),
+            Drive::Walker(_) => DriveCommand::Gait(Gait::default()),
+        }
+    }
+
+    /// Where the robot is told to go: m/s ahead and to the left.
+    pub fn velocity(&self) -> Vec2 {
+        match self {
+            DriveCommand::Wheels(speeds) => Vec2::X * ((speeds.left + speeds.right) / 2.0),
+            DriveCommand::Gait(gait) => Vec2::new(gait.ahead, gait.left),
+        }
+    }
+
+    /// The fastest that a wheel or the legs are told to move, m/s.
+    pub fn speed(&self) -> f32 {
+        match self {
+            DriveCommand::Wheels(speeds) => speeds.left.abs().max(speeds.right.abs()),
+            DriveCommand::Gait(gait) => gait.speed().max(0.1 * gait.turn.abs()),
+        }
+    }
 }
 
 /// Rapier's handles of a robot's bodies.

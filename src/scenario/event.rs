@@ -81,6 +81,8 @@ pub enum Dependency {
     OffensiveSupport,
     FloaterDropsBack,
     RoleSwap,
+    BallReports,
+    BallBooking,
     /// That roles are swapped by the hardened protocol and not by the paper's.
     HardenedSwap,
 }
@@ -98,6 +100,8 @@ impl Dependency {
             Dependency::OffensiveSupport => Mechanism::OffensiveSupport,
             Dependency::FloaterDropsBack => Mechanism::FloaterDropsBack,
             Dependency::RoleSwap => Mechanism::RoleSwap,
+            Dependency::BallReports => Mechanism::BallReports,
+            Dependency::BallBooking => Mechanism::BallBooking,
             Dependency::HardenedSwap => return None,
         })
     }

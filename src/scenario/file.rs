@@ -17,9 +17,12 @@ pub struct ScenarioFile {
     pub source: String,
     #[serde(default)]
     pub description: String,
-    /// A pitch, by its file's name.
-    #[serde(default = "middle_size_2001")]
-    pub pitch: String,
+    /// The match whose pitch, ball and rules it has, by its file's name.
+    #[serde(default = "friendly")]
+    pub game: String,
+    /// Another pitch than that match's, by its file's name.
+    #[serde(default)]
+    pub pitch: Option<String>,
     /// A radio, by its file's name.
     #[serde(default = "perfect")]
     pub radio: String,
@@ -43,8 +46,8 @@ pub struct ScenarioFile {
     pub depends_on: Option<Dependency>,
 }
 
-fn middle_size_2001() -> String {
-    "middle_size_2001".to_owned()
+fn friendly() -> String {
+    "friendly".to_owned()
 }
 
 fn perfect() -> String {
@@ -155,7 +158,7 @@ mod tests {
         let text = r#"(name: "a", source: "b", seconds: 3, ball: (at: (0, 0)), expect: [],
             home: (strategy: "s", players: [(number: 1, at: (1, 2))]))"#;
         let file: ScenarioFile = parsed(text);
-        assert_eq!((file.pitch.as_str(), file.radio.as_str()), ("middle_size_2001", "perfect"));
+        assert_eq!((file.game.as_str(), file.radio.as_str()), ("friendly", "perfect"));
         assert_eq!((file.home.robot.as_str(), file.home.sensing.as_str()), ("cye", "perfect"));
         assert_eq!(file.seeds.to_vec(), (1..=10).collect::<Vec<_>>());
         assert_eq!((file.referee, file.depends_on, file.away), (Referee::Nobody, None, None));

@@ -38,17 +38,19 @@ impl ScenarioPlan {
     pub fn read(assets: &AssetFolder, path: &Path) -> Result<ScenarioPlan, DataError> {
         let source = Source::read(path)?;
         let file: ScenarioFile = source.parse()?;
-        let pitch = checked(&assets.file("pitches", &file.pitch), Pitch::fault)?;
-        let home = team(assets, &file.home)?;
-        let away = team(assets, file.away.as_ref().unwrap_or(&file.home))?;
+        let usual = MatchPlan::read(assets, &Choice { file: Some(file.game.clone()), ..Choice::default() })?;
+        let pitch = match &file.pitch {
+            Some(name) => checked(&assets.file("pitches", name), Pitch::fault)?,
+            None => usual.pitch.clone(),
+        };
+        let home = team(assets, &file.home, &pitch)?;
+        let away = team(assets, file.away.as_ref().unwrap_or(&file.home), &pitch)?;
         let known = Known {
             pitch: &pitch,
             teams: [known(&home), if file.away.is_some() { known(&away) } else { KnownTeam::default() }],
             radios: assets.names("radios"),
         };
         let scenario = check(&file, &source, &known)?;
-        // The ball and the rules are those of the usual match.
-        let usual = MatchPlan::read(assets, &Choice::default())?;
         let mut match_plan = MatchPlan {
             name: scenario.name.clone(),
             pitch,
@@ -110,10 +112,10 @@ fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
     }
 }
 
-fn team(assets: &AssetFolder, file: &SideFile) -> Result<TeamPlan, DataError> {
+fn team(assets: &AssetFolder, file: &SideFile, pitch: &Pitch) -> Result<TeamPlan, DataError> {
     let SideFile { strategy, robot, sensing, .. } = file;
     let names = TeamFile { strategy: strategy.clone(), robot: robot.clone(), sensing: sensing.clone() };
-    TeamPlan::read(assets, &names)
+    TeamPlan::read(assets, &names, pitch)
 }
 
 fn known(team: &TeamPlan) -> KnownTeam<'_> {

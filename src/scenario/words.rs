@@ -202,6 +202,8 @@ impl Display for Dependency {
             Dependency::OffensiveSupport => "offensive support",
             Dependency::FloaterDropsBack => "the floater's dropping back",
             Dependency::RoleSwap => "role swaps",
+            Dependency::BallReports => "ball reports",
+            Dependency::BallBooking => "ball booking",
             Dependency::HardenedSwap => "the hardened role swap",
         })
     }

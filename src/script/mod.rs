@@ -20,7 +20,7 @@ use crate::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::Role;
-pub use requests::{Request, Requests, Script, Shove, Treatment, Weather};
+pub use requests::{Calibration, Request, Requests, Script, Shove, Treatment, Weather};
 
 pub(super) fn plugin(app: &mut App) {
     let in_order = (

@@ -11,7 +11,8 @@ use crate::ids::{RobotId, Team};
 use crate::pilot::Pilot;
 use crate::protocol::role_swap::Reassignment;
 use crate::radio::{FaultRule, Partition, Radio};
-use crate::robot::{Ailment, Recall};
+use crate::robot::{Ailment, Recall, RobotKind};
+use crate::sense::Sensing;
 use crate::strategy::Strategy;
 
 /// Something that is to happen at the next tick.
@@ -51,6 +52,15 @@ pub enum Treatment {
     Revive(Recall),
     /// It decides that roles should be swapped.
     Swap(Reassignment),
+    /// Its body and its senses have other values from now on; its size and the rate of its decisions stay.
+    Recalibrate(Calibration),
+}
+
+/// The values of a robot that can be calibrated while it plays: its noise, its limits and its senses.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    pub kind: Arc<RobotKind>,
+    pub sensing: Arc<Sensing>,
 }
 
 /// What befalls the radio.

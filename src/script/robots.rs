@@ -1,19 +1,21 @@
 //! Requests that make robots ill or well.
 
+use std::sync::Arc;
+
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::requests::{Request, Requests, Treatment};
+use super::requests::{Calibration, Request, Requests, Treatment};
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::motor::SteeringIntent;
 use crate::perception::Memory;
-use crate::radio::Outbox;
-use crate::robot::{Ailment, Condition, Recall, Robot};
+use crate::robot::{Ailment, Condition, Recall, Robot, RobotKind};
 use crate::sense::{Eyesight, Percepts};
 use crate::strategy::{Strategies, Strategy};
-use crate::teamwork::{Role, Swapping, TeamPicture};
+use crate::tcm::TcmClient;
+use crate::teamwork::{Booking, Role, Swapping, TeamPicture};
 use crate::world_model::WorldModel;
 
 /// Everything of a robot that a restart resets.
@@ -31,7 +33,8 @@ pub(super) struct Patient {
     eyesight: &'static mut Eyesight,
     percepts: &'static mut Percepts,
     intent: &'static mut SteeringIntent,
-    outbox: &'static mut Outbox,
+    client: &'static mut TcmClient,
+    booking: Option<&'static mut Booking>,
 }
 
 pub(super) fn treat_robots(
@@ -53,6 +56,7 @@ pub(super) fn treat_robots(
                     robot.switch_on(*recall, strategy, clock.tick);
                 }
             }
+            Treatment::Recalibrate(calibration) => robot.recalibrate(calibration),
             Treatment::Swap(reassignment) => {
                 if let Some(swapping) = &mut robot.swapping {
                     swapping.asked = Some(reassignment.clone());
@@ -67,8 +71,19 @@ impl PatientItem<'_, '_> {
         self.robot.condition = self.robot.condition.with(ailment);
         if self.robot.condition.crashed {
             *self.intent = SteeringIntent::Stop;
-            self.outbox.clear();
+            self.client.clear();
         }
+    }
+
+    /// Values that make no sense change nothing.
+    fn recalibrate(&mut self, Calibration { kind, sensing }: &Calibration) {
+        if kind.fault().or(sensing.fault()).is_some() {
+            return;
+        }
+        let own = &self.robot.kind;
+        let body = RobotKind { body: own.body, control_hz: own.control_hz, ..RobotKind::clone(kind) };
+        self.robot.kind = Arc::new(body);
+        self.eyesight.sensing = sensing.clone();
     }
 
     /// What the robot was in the middle of is gone in any case.
@@ -85,6 +100,9 @@ impl PatientItem<'_, '_> {
         let known = std::mem::replace(&mut *self.picture, TeamPicture::new(strategy));
         if recall == Recall::Kept {
             self.picture.roles = known.roles;
+        }
+        if let Some(booking) = &mut self.booking {
+            booking.0.restart();
         }
         *self.activity = Activity::new(strategy, self.role.0, tick);
         *self.memory = Memory::new(strategy.slots);

@@ -65,7 +65,7 @@ fn set_weight(team: Team, term: usize, weight: f32) -> Request {
 }
 
 fn steer(robot: RobotId, throttle: f32) -> Request {
-    Request::Steer { robot, pilot: Pilot { throttle, turn: 0.25 } }
+    Request::Steer { robot, pilot: Pilot { throttle, turn: 0.25, ..Pilot::default() } }
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn requests_take_effect_at_the_next_tick_and_once() {
 fn requests_are_carried_out_in_the_order_in_which_they_were_made() {
     let mut app = app();
     ask(&mut app, [Request::TakeOver(FIRST), steer(FIRST, 0.5), steer(FIRST, -0.5)]);
-    assert_eq!(pilots(&mut app), [(FIRST, Pilot { throttle: -0.5, turn: 0.25 })]);
+    assert_eq!(pilots(&mut app), [(FIRST, Pilot { throttle: -0.5, turn: 0.25, ..Pilot::default() })]);
     ask(&mut app, [Request::HandBack(FIRST), Request::TakeOver(FIRST)]);
     assert_eq!(pilots(&mut app), [(FIRST, Pilot::default())]);
     ask(&mut app, [Request::TakeOver(SECOND), Request::HandBack(SECOND), set_weight(Home, 0, 3.0)]);

@@ -42,10 +42,10 @@ impl PoseError {
     }
 }
 
-/// Moves a dead-reckoned pose by what the wheels report: a way ahead in metres and a turn in radians.
-pub fn reckon(pose: Pose, ahead: f32, turn: f32) -> Pose {
+/// Moves a dead-reckoned pose by what wheels or legs report: a way ahead and to the left in metres, and a turn in radians.
+pub fn reckon(pose: Pose, way: Vec2, turn: f32) -> Pose {
     let middle = pose.heading + turn / 2.0;
-    Pose { position: pose.position + unit(middle) * ahead, heading: wrap_angle(pose.heading + turn) }
+    Pose { position: pose.position + unit(middle).rotate(way), heading: wrap_angle(pose.heading + turn) }
 }
 
 /// The error of the wheels' report over a way of `distance` metres: ahead in metres, turn in radians.
@@ -95,7 +95,7 @@ mod tests {
         let (steps, radius) = (1000, 1.0);
         let quarter = std::f32::consts::FRAC_PI_2;
         let end = (0..steps).fold(Pose::default(), |pose, _| {
-            reckon(pose, radius * quarter / steps as f32, quarter / steps as f32)
+            reckon(pose, Vec2::X * (radius * quarter / steps as f32), quarter / steps as f32)
         });
         assert!((end.position - Vec2::new(1.0, 1.0)).length() < 1e-3, "{end:?}");
     }

@@ -23,10 +23,12 @@ pub use preset::{Camera, Eyes, MemorySpans, Sensing};
 use crate::ball::Ball;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, Twist, wrap_angle};
+use crate::handling::Handling;
+use crate::head::Head;
 use crate::ids::{RobotId, Team};
 use crate::referee::MatchState;
 use crate::rng::{Dice, Seed};
-use crate::robot::{OffPitch, Robot, Trailer, WheelCommand};
+use crate::robot::{Drive, DriveCommand, OffPitch, Robot, Trailer};
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {
@@ -49,6 +51,10 @@ pub struct Frame {
     pub robots: Vec<(Team, Sighting)>,
     /// The localised pose, in the team frame.
     pub fix: Pose,
+    /// Where the camera looked: rad to the left of the body's heading.
+    pub pan: f32,
+    /// Whether the robot's own chin was on the ball.
+    pub chin_down: bool,
 }
 
 /// A robot's eyes, with the errors and the frames that are under way inside them.
@@ -83,7 +89,7 @@ impl Eyesight {
     }
 }
 
-/// What the wheels report: a dead-reckoned pose in a frame of its own, and whether they turn in vain.
+/// What wheels or legs report: a dead-reckoned pose in a frame of its own, and whether they move in vain.
 #[derive(Component, Clone, Debug)]
 pub struct Odometry {
     pub pose: Pose,
@@ -91,7 +97,7 @@ pub struct Odometry {
     pub speed: f32,
     /// rad/s
     pub turn_rate: f32,
-    /// How long the wheels have been told to turn without moving the robot, s.
+    /// How long wheels or legs have been told to move without moving the robot, s.
     pub stalled_for: f32,
     /// Distance since the last error was drawn, m.
     unjudged: f32,
@@ -123,16 +129,26 @@ struct Scene {
 
 type Bodies<'w, 's> = Query<'w, 's, (&'static RobotId, &'static Robot, &'static Pose), Without<OffPitch>>;
 
+type Watching<'a> = (&'a RobotId, &'a Robot, &'a Pose, &'a Head, &'a Handling, &'a mut Eyesight);
+
+/// Where a camera looks from, and how.
+#[derive(Clone, Copy, Debug)]
+struct Gaze {
+    from: Pose,
+    pan: f32,
+    chin_down: bool,
+}
+
 fn take_frames(
     clock: Res<Clock>,
     state: Res<MatchState>,
     ball: Single<(&Ball, &Pose)>,
     bodies: Bodies,
     trailers: Query<(&Trailer, &Pose)>,
-    mut eyes: Query<(&RobotId, &Robot, &Pose, &mut Eyesight), Without<OffPitch>>,
+    mut eyes: Query<Watching, Without<OffPitch>>,
 ) {
     let mut scene = None;
-    for (&id, robot, &pose, mut eyesight) in &mut eyes {
+    for (&id, robot, &pose, head, handling, mut eyesight) in &mut eyes {
         let eyesight = &mut *eyesight;
         let team_pose = state.attacking(id.team).turn_pose(pose);
         match &eyesight.sensing.eyes {
@@ -144,7 +160,8 @@ fn take_frames(
                 let dt = 1.0 / camera.frame_hz;
                 eyesight.error = eyesight.error.drift(localisation, dt, &mut eyesight.localisation_dice);
                 let scene = scene.get_or_insert_with(|| Scene::of(*ball, &bodies, &trailers));
-                let mut frame = scene.seen_through(camera, id, pose, &mut eyesight.camera_dice);
+                let gaze = Gaze { from: pose, pan: head.pan, chin_down: handling.hides_ball() };
+                let mut frame = scene.seen_through(camera, id, gaze, &mut eyesight.camera_dice);
                 frame.taken = clock.tick;
                 frame.fix = eyesight.error.applied(team_pose);
                 eyesight.under_way.push_back(frame);
@@ -175,10 +192,15 @@ impl Scene {
                 .map(|(id, at, _)| (id.team, Sighting::of(*at, pose)))
                 .collect(),
             fix: team_pose,
+            pan: 0.0,
+            chin_down: false,
         }
     }
 
-    fn seen_through(&self, camera: &Camera, own: RobotId, pose: Pose, dice: &mut Dice) -> Frame {
+    fn seen_through(&self, camera: &Camera, own: RobotId, gaze: Gaze, dice: &mut Dice) -> Frame {
+        let pose = Pose { heading: gaze.from.heading + gaze.pan, ..gaze.from };
+        let from_body =
+            |sighting: Sighting| Sighting { bearing: wrap_angle(sighting.bearing + gaze.pan), ..sighting };
         let others = self.robots.iter().filter(|(id, ..)| *id != own);
         let units: Vec<(RobotId, Blob)> =
             others.map(|(id, at, radius)| (*id, Blob::of(*at, *radius, pose))).collect();
@@ -192,13 +214,15 @@ impl Scene {
             let bearing = (dice.uniform() - 0.5) * camera.field_of_view.to_radians();
             seen = Some(Sighting { range: 0.3 + dice.uniform() * (camera.ball_range - 0.3), bearing });
         }
+        let ball = seen.filter(|_| !gaze.chin_down).map(from_body);
         let robots = (units.iter())
             .filter_map(|(id, blob)| {
                 let between = solid().filter(|(other, _)| other != id).map(|(_, blob)| *blob);
-                look(camera, *blob, camera.robot_range, between, dice).map(|sighting| (id.team, sighting))
+                look(camera, *blob, camera.robot_range, between, dice)
+                    .map(|sighting| (id.team, from_body(sighting)))
             })
             .collect();
-        Frame { taken: 0, ball: seen, robots, fix: Pose::default() }
+        Frame { taken: 0, ball, robots, fix: Pose::default(), pan: gaze.pan, chin_down: gaze.chin_down }
     }
 }
 
@@ -214,39 +238,46 @@ fn deliver_frames(clock: Res<Clock>, mut eyes: Query<(&mut Eyesight, &mut Percep
     }
 }
 
-/// Wheels that are told to move faster than this, m/s, and robots that move slower than the second, are stalled.
+/// Robots that are told to move faster than this, m/s, and that move slower than the second, are stalled.
 const STALL: (f32, f32) = (0.12, 0.04);
 
-type Rolling<'a> = (&'a Robot, &'a Eyesight, &'a Pose, &'a Twist, &'a WheelCommand, &'a mut Odometry);
+type Moved<'a> = (&'a Robot, &'a Eyesight, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
 
-fn read_odometry(clock: Res<Clock>, mut robots: Query<Rolling, Without<OffPitch>>) {
-    for (robot, eyesight, pose, twist, wheels, mut odometry) in &mut robots {
+fn read_odometry(clock: Res<Clock>, mut robots: Query<Moved, Without<OffPitch>>) {
+    for (robot, eyesight, pose, twist, command, mut odometry) in &mut robots {
         odometry.speed = twist.linear.dot(pose.forward());
         odometry.turn_rate = twist.angular;
-        let (mut ahead, mut turn) = (odometry.speed * clock.dt, twist.angular * clock.dt);
-        odometry.unjudged += ahead.abs();
+        // Wheels do not feel that they slide sideways.
+        let aside = match robot.kind.drive {
+            Drive::Differential(_) => 0.0,
+            Drive::Walker(_) => twist.linear.dot(pose.forward().perp()),
+        };
+        let mut way = Vec2::new(odometry.speed, aside) * clock.dt;
+        let mut turn = twist.angular * clock.dt;
+        odometry.unjudged += way.length();
         if let Eyes::Real { odometry: noise, .. } = &eyesight.sensing.eyes
             && robot.decides(&clock)
         {
             let distance = std::mem::take(&mut odometry.unjudged);
             let (more, more_turn) = odometry_error(noise, distance, &mut odometry.dice);
-            (ahead, turn) = (ahead + more, turn + more_turn);
+            (way.x, turn) = (way.x + more, turn + more_turn);
         }
-        odometry.pose = reckon(odometry.pose, ahead, turn);
-        let told = wheels.speeds.left.abs().max(wheels.speeds.right.abs());
-        let moved = odometry.speed.abs() + 0.1 * odometry.turn_rate.abs();
+        odometry.pose = reckon(odometry.pose, way, turn);
+        let moved = Vec2::new(odometry.speed, aside).length() + 0.1 * odometry.turn_rate.abs();
         odometry.stalled_for =
-            if told > STALL.0 && moved < STALL.1 { odometry.stalled_for + clock.dt } else { 0.0 };
+            if command.speed() > STALL.0 && moved < STALL.1 { odometry.stalled_for + clock.dt } else { 0.0 };
     }
 }
 
-/// Whether a point at this sighting would be well inside the camera's view, so that not seeing it means something.
-pub fn should_be_seen(eyes: &Eyes, sighting: Sighting) -> bool {
+/// Whether a point at this sighting would be well inside the view of a frame, so that not seeing it means something.
+pub fn should_be_seen(eyes: &Eyes, frame: &Frame, sighting: Sighting) -> bool {
     match eyes {
         Eyes::Perfect => true,
         Eyes::Real { camera, .. } => {
-            sighting.range < 0.7 * camera.ball_range
-                && wrap_angle(sighting.bearing).abs() < 0.4 * camera.field_of_view.to_radians().min(2.0 * PI)
+            !frame.chin_down
+                && sighting.range < 0.7 * camera.ball_range
+                && wrap_angle(sighting.bearing - frame.pan).abs()
+                    < 0.4 * camera.field_of_view.to_radians().min(2.0 * PI)
         }
     }
 }

@@ -46,8 +46,9 @@ impl Bench {
         let id = RobotId::new(team, number);
         let robot = Robot::new(Arc::new(cye()), self.0.resource());
         let eyesight = Eyesight::new(Arc::new(sensing.clone()), Seed(1), id);
-        let wheels = (Twist::default(), WheelCommand::default(), Odometry::new(Seed(1), id));
-        self.0.spawn((id, robot, pose, eyesight, Percepts::default(), wheels)).id()
+        let drive = (Twist::default(), DriveCommand::idle(&robot.kind), Odometry::new(Seed(1), id));
+        let senses = (Head::default(), Handling::new(Seed(1), id), eyesight, Percepts::default());
+        self.0.spawn((id, robot, pose, senses, drive)).id()
     }
 
     /// Runs the stage at this tick; returns what the robot has seen.
@@ -191,7 +192,7 @@ fn wheels_that_turn_in_vain_are_noticed_until_the_robot_moves_or_they_stop() {
     let robot = bench.robot(&perfect(), Home, 0, Pose::default());
     let mut stalled = |tick: u64, told: f32, speed: f32, turn_rate: f32| {
         let speeds = WheelSpeeds { left: 0.0, right: told };
-        bench.0.entity_mut(robot).insert(WheelCommand { speeds });
+        bench.0.entity_mut(robot).insert(DriveCommand::Wheels(speeds));
         bench.0.entity_mut(robot).insert(Twist { linear: Vec2::new(speed, 0.0), angular: turn_rate });
         (60.0 * bench.odometry(tick, robot).stalled_for).round()
     };

@@ -20,7 +20,7 @@ pub(super) fn complete(file: StrategyFile, source: &Source) -> Result<StrategyFi
         return Err(source.error_at(&at, format!("{name} is based on another strategy itself")));
     }
     // Its own faults are told with their places in it.
-    resolve(&base, &base_source)?;
+    resolve(&base, &base_source, None)?;
     Ok(file.over(base))
 }
 
@@ -31,6 +31,7 @@ impl StrategyFile {
             name: self.name,
             description: if self.description.is_empty() { base.description } else { self.description },
             based_on: self.based_on,
+            pitch: self.pitch.or(base.pitch),
             robot_kinds: given(self.robot_kinds, base.robot_kinds),
             players: given(self.players, base.players),
             kick_off: if kick_off_is_given { self.kick_off } else { base.kick_off },

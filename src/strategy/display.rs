@@ -24,6 +24,9 @@ impl fmt::Display for Feature {
                 let names: Vec<&str> = roles.iter().map(|role| role.name.as_str()).collect();
                 write!(f, "the {} has the ball", names.join(" or "))
             }
+            Feature::HasBooked => f.write_str("has booked the ball"),
+            Feature::TeammateHasBooked => f.write_str("a team mate has booked the ball"),
+            Feature::HoldsBall => f.write_str("holds the ball"),
             Feature::GoalieIsOut => f.write_str("the goalie is out"),
             Feature::After(seconds) => write!(f, "after {seconds} s"),
             Feature::Stalled(seconds) => write!(f, "stalled for {seconds} s"),

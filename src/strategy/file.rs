@@ -21,6 +21,9 @@ pub struct StrategyFile {
     /// this file's own count.
     #[serde(default)]
     pub based_on: Option<String>,
+    /// Length and width in metres of the pitch that its positions are meant for. On another pitch they are stretched.
+    #[serde(default)]
+    pub pitch: Option<Vec2>,
     /// Kinds of robots that can play it, by their files' names.
     #[serde(default)]
     pub robot_kinds: Vec<String>,
@@ -59,6 +62,13 @@ pub struct KickOff {
     pub theirs: Vec<Vec2>,
 }
 
+impl KickOff {
+    pub(super) fn scaled(&self, scale: Vec2) -> KickOff {
+        let scaled = |places: &[Vec2]| places.iter().map(|place| *place * scale).collect();
+        KickOff { ours: scaled(&self.ours), theirs: scaled(&self.theirs) }
+    }
+}
+
 /// Motor schemas by name, a weight beside each, and how they become one vector.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AssemblageFile {
@@ -90,7 +100,13 @@ pub struct StateFile {
     /// Whether it is an acquire behaviour, in which the ball can be claimed.
     #[serde(default)]
     pub acquires: bool,
-    /// What to turn to while standing.
+    /// Whether the robot tries to hold the ball, if it is of a kind that can.
+    #[serde(default)]
+    pub hold: bool,
+    /// Kicks by name: the first that the robot's kind has is made as soon as the ball is in reach.
+    #[serde(default)]
+    pub kick: Vec<String>,
+    /// What to turn to while standing. Legs turn to it while they walk, too.
     #[serde(default)]
     pub turn: TurnFile,
     /// In order: the first transition whose feature holds is taken, at most one per decision.

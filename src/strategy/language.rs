@@ -19,6 +19,8 @@ pub enum Point {
     Named(String),
     /// Where the robot believes the ball is.
     Ball,
+    /// Where the ball is by the robot's own eyes, or by the freshest report of a team mate.
+    TeamBall,
     /// Where the ball will be in so many seconds, as it rolls.
     BallIn(f32),
     /// The middle of the team's own goal line.
@@ -31,6 +33,8 @@ pub enum Point {
     Own,
     /// The team mate that has claimed the ball.
     Carrier,
+    /// The team mate that has booked the ball.
+    Booker,
     /// The team mate in a role, as far as it is known who that is.
     Teammate(RoleRef),
     /// `behind` metres behind the carrier and `aside` metres off its way to their goal, on the side where the robot is.
@@ -204,6 +208,12 @@ pub enum Feature {
     HasBall,
     /// A team mate's claim of the ball holds, one in one of these roles; any, if none is named.
     TeammateHasBall(Vec<RoleRef>),
+    /// The robot has booked the ball.
+    HasBooked,
+    /// A team mate has booked the ball, and has renewed the booking recently.
+    TeammateHasBooked,
+    /// The ball is held under the robot's own chin.
+    HoldsBall,
     /// The goalie has said that it left its area, and not that it is back.
     GoalieIsOut,
     /// The wheels have been turning for so many seconds without moving the robot.

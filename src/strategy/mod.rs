@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use crate::data::{DataError, Source};
 use crate::geometry::Zone;
 use crate::ids::Team;
+use crate::pitch::Pitch;
 pub use file::{KickOff, StrategyFile};
 use language::{Feature, Point, Schema};
 pub use role_ref::RoleRef;
@@ -106,6 +107,10 @@ pub struct State {
     pub turn: Turn,
     /// Whether it is an acquire behaviour, in which the ball can be claimed.
     pub acquires: bool,
+    /// Whether the robot tries to hold the ball.
+    pub hold: bool,
+    /// Kicks by name, the first that the robot's kind has.
+    pub kicks: Vec<String>,
     pub transitions: Vec<Transition>,
 }
 
@@ -151,7 +156,7 @@ pub struct Term {
 }
 
 impl Strategy {
-    /// Reads and checks a strategy file.
+    /// Reads and checks a strategy file, with positions as they are written.
     ///
     /// # Errors
     /// Says what is wrong with the file's path, line, column and field; a strategy is loaded whole or not at all.
@@ -159,12 +164,21 @@ impl Strategy {
         Strategy::parse(&Source::read(path)?)
     }
 
-    /// Checks the text of a strategy file.
+    /// Checks the text of a strategy file, with positions as they are written.
     ///
     /// # Errors
     /// As [`Strategy::read`].
     pub fn parse(source: &Source) -> Result<Strategy, DataError> {
-        resolve::resolve(&base::complete(source.parse()?, source)?, source)
+        resolve::resolve(&base::complete(source.parse()?, source)?, source, None)
+    }
+
+    /// Checks the text of a strategy file, and stretches its positions to a pitch.
+    ///
+    /// # Errors
+    /// As [`Strategy::read`].
+    pub fn parse_for(source: &Source, pitch: &Pitch) -> Result<Strategy, DataError> {
+        let size = Some(2.0 * pitch.half_size());
+        resolve::resolve(&base::complete(source.parse()?, source)?, source, size)
     }
 
     /// Whether robots that play `before` can play on with this strategy.

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::role_ref::RoleRef;
+use crate::protocol::b3p;
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
 use crate::teamwork::policy::{Cast, Policy};
 
@@ -28,10 +29,14 @@ pub enum Mechanism {
     FloaterDropsBack,
     /// Roles are swapped (section VII).
     RoleSwap,
+    /// Robots report the ball that they see (TeamChaos, section 1).
+    BallReports,
+    /// Only the robot that has booked the ball goes for it (TeamChaos, section 4).
+    BallBooking,
 }
 
 impl Mechanism {
-    pub const ALL: [Mechanism; 9] = [
+    pub const ALL: [Mechanism; 11] = [
         Mechanism::Messages,
         Mechanism::TeammateAvoidance,
         Mechanism::HierarchicalAvoidance,
@@ -41,6 +46,8 @@ impl Mechanism {
         Mechanism::OffensiveSupport,
         Mechanism::FloaterDropsBack,
         Mechanism::RoleSwap,
+        Mechanism::BallReports,
+        Mechanism::BallBooking,
     ];
 
     fn bit(self) -> u16 {
@@ -99,6 +106,7 @@ pub struct TeamworkFile {
     pub goalie: Option<String>,
     pub talk: Talk,
     pub role_swap: Option<RoleSwapFile>,
+    pub ball_booking: Option<BallBooking>,
 }
 
 /// When robots talk and how long they believe what they heard, all in seconds, and how near to the ball it can be claimed.
@@ -115,6 +123,10 @@ pub struct Talk {
     pub claim_memory: f32,
     /// A robot claims a ball that is nearer than this, m.
     pub claim_radius: f32,
+    /// Between two reports of a ball that is in sight.
+    pub ball_every: f32,
+    /// For how long such a report is believed.
+    pub ball_memory: f32,
 }
 
 impl Default for Talk {
@@ -125,6 +137,8 @@ impl Default for Talk {
             claim_every: 0.4,
             claim_memory: 1.2,
             claim_radius: 1.0,
+            ball_every: 0.3,
+            ball_memory: 1.5,
         }
     }
 }
@@ -138,6 +152,30 @@ pub struct RoleSwapFile {
     pub cast: CastFile,
     #[serde(default)]
     pub timers: Timers,
+}
+
+/// How the ball is booked (TeamChaos, section 4). Times in seconds, lengths in metres.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BallBooking {
+    pub rules: b3p::Rules,
+    /// How much nearer than the booker a robot must be to book the ball in its stead.
+    pub threshold: f32,
+    /// A booking that was not renewed for so long is free.
+    pub timeout: f32,
+    /// Between two announcements of a robot that keeps its booking.
+    pub renewal: f32,
+}
+
+impl Default for BallBooking {
+    fn default() -> BallBooking {
+        BallBooking {
+            rules: b3p::Rules::Hardened { release: true },
+            threshold: 0.3,
+            timeout: 0.8,
+            renewal: 0.2,
+        }
+    }
 }
 
 /// The version of the protocol.
@@ -190,6 +228,7 @@ pub struct Teamwork {
     pub goalie: Option<RoleIndex>,
     pub talk: Talk,
     pub role_swap: Option<RoleSwapSpec>,
+    pub ball_booking: Option<BallBooking>,
 }
 
 /// How roles are swapped, with every name looked up.

@@ -6,9 +6,9 @@ use super::picture::TeamPicture;
 use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::messages::{Message, Values};
-use crate::radio::{Inbox, Received};
 use crate::robot::Robot;
 use crate::strategy::Strategies;
+use crate::tcm::{Inbox, Received};
 
 /// A goalie of which nothing was heard for so long is taken to be back, s.
 const GOALIE_MEMORY: f32 = 20.0;
@@ -28,6 +28,8 @@ pub(super) fn hear_news(
         }
         picture.claims.forget(clock.tick, memory);
         picture.goalie.forget(clock.tick, clock.ticks(GOALIE_MEMORY));
+        let ball_memory = clock.ticks(strategies.of(id.team).teamwork.talk.ball_memory);
+        picture.reports.forget(clock.tick, ball_memory);
     }
 }
 
@@ -40,7 +42,8 @@ impl TeamPicture {
             }
             Message::Goalie(news) => self.goalie.hear(news, tick),
             Message::Values(values) => self.hear_values(received, values, tick),
-            Message::Position(_) | Message::RoleSwap(_) => {}
+            Message::BallReport(report) => self.reports.hear(received.from, report, tick),
+            Message::Position(_) | Message::RoleSwap(_) | Message::Book(_) => {}
         }
     }
 

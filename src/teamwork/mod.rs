@@ -3,11 +3,13 @@
 //! A robot listens to what came in, takes its part in role swaps, claims the ball if it is its to claim, and says what the
 //! others should know. What it wants to say waits in its outbox for the Transmit stage.
 
+mod booking;
 mod claims;
 mod goalie;
 mod listen;
 mod picture;
 pub mod policy;
+mod reports;
 mod swap;
 mod talk;
 #[cfg(test)]
@@ -15,15 +17,18 @@ mod tests;
 
 use bevy::prelude::*;
 
+pub use booking::{Booking, Standing};
 pub use claims::{Claim, Claims};
 pub use goalie::GoalieWhereabouts;
 pub use picture::{Said, TeamPicture, kick_off_roles};
+pub use reports::{BallReports, Reported};
 pub use swap::Swapping;
 
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {
-    let in_order = (listen::hear_news, swap::swap_roles, talk::claim_ball, talk::tell_team).chain();
+    let in_order =
+        (listen::hear_news, swap::swap_roles, talk::claim_ball, booking::book_ball, talk::tell_team).chain();
     app.add_systems(Tick, in_order.in_set(TickSystems::Teamwork));
 }
 

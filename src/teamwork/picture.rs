@@ -3,9 +3,11 @@
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
+use super::booking::Standing;
 use super::claims::Claims;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
 use super::policy::Valued;
+use super::reports::BallReports;
 use crate::clock::Clock;
 use crate::messages::Values;
 use crate::protocol::role_swap::{Assignment, Number, RoleIndex};
@@ -24,6 +26,10 @@ pub struct TeamPicture {
     pub goalie: GoalieWhereabouts,
     /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.
     pub values: SmallVec<[(Number, Values, u64); 4]>,
+    /// What the team mates said last of the ball.
+    pub reports: BallReports,
+    /// Who has booked the ball, in this robot's eyes.
+    pub booking: Standing,
     /// If the robot is the goalie.
     pub border: BorderWatch,
     pub said: Said,
@@ -34,6 +40,7 @@ pub struct TeamPicture {
 pub struct Said {
     pub position: Option<u64>,
     pub have_ball: Option<u64>,
+    pub ball: Option<u64>,
 }
 
 impl TeamPicture {
@@ -51,6 +58,8 @@ impl TeamPicture {
             carrier: None,
             goalie: GoalieWhereabouts::default(),
             values: SmallVec::new(),
+            reports: BallReports::default(),
+            booking: Standing::default(),
             border: BorderWatch::default(),
             said: Said::default(),
         }

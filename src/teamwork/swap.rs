@@ -17,11 +17,11 @@ use crate::protocol::role_swap::{
     Assignment, Effect, Hardened, Input, Number, Outcome, Paper, Phase, Reassignment, RoleIndex, RoleSwap,
     Timer,
 };
-use crate::radio::{Inbox, Outbox};
 use crate::rng::{Dice, Seed};
 use crate::robot::{OffPitch, Recall, Robot};
 use crate::strategy::teamwork::{Mechanism, Protocol, RoleSwapSpec, Timers};
 use crate::strategy::{Strategies, Strategy};
+use crate::tcm::{Inbox, TcmClient};
 use crate::world_model::WorldModel;
 
 /// A robot's part in role swaps.
@@ -86,7 +86,7 @@ pub(super) struct Swapper {
     swapping: &'static mut Swapping,
     picture: &'static mut TeamPicture,
     role: &'static mut Role,
-    outbox: &'static mut Outbox,
+    client: &'static mut TcmClient,
     off_pitch: Has<OffPitch>,
 }
 
@@ -123,7 +123,7 @@ impl SwapperItem<'_, '_> {
                     Some(configuration) => Input::Heard(configuration.clone()),
                     None => continue,
                 },
-                Message::HaveBall(_) | Message::Goalie(_) | Message::Values(_) => continue,
+                _ => continue,
             };
             self.step(input, timers, clock);
         }
@@ -219,7 +219,7 @@ impl SwapperItem<'_, '_> {
         let swapping = &mut *self.swapping;
         for effect in swapping.machine.step(input) {
             match effect {
-                Effect::Send { to, message } => self.outbox.send(to, Message::RoleSwap(message)),
+                Effect::Send { to, message } => self.client.send(to, &message),
                 Effect::Start(timer) => {
                     let seconds = match timer {
                         Timer::Lock => timers.lock,

@@ -10,13 +10,13 @@ use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::geometry::unit;
 use crate::ids::RobotId;
-use crate::messages::{GoalieNews, HaveBall, Message, Position, Values};
+use crate::messages::{BallReport, GoalieNews, HaveBall, Position, Values};
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::RoleIndex;
-use crate::radio::Outbox;
 use crate::robot::{OffPitch, Robot};
 use crate::strategy::teamwork::{Mechanism, Talk};
 use crate::strategy::{State, Strategies, Strategy};
+use crate::tcm::TcmClient;
 use crate::world_model::WorldModel;
 
 /// A robot that may claim the ball.
@@ -72,7 +72,7 @@ pub(super) struct Speaker {
     role: &'static Role,
     swapping: Option<&'static Swapping>,
     picture: &'static mut TeamPicture,
-    outbox: &'static mut Outbox,
+    client: &'static mut TcmClient,
 }
 
 pub(super) fn tell_team(
@@ -91,6 +91,9 @@ pub(super) fn tell_team(
             robot.tell_of_goal(strategy, &pitch, &clock);
         }
         robot.tell_of_place(&strategy.teamwork.talk, &clock);
+        if strategy.teamwork.has(Mechanism::BallReports) {
+            robot.report_ball(&strategy.teamwork.talk, &clock);
+        }
     }
 }
 
@@ -104,12 +107,12 @@ impl SpeakerItem<'_, '_> {
         };
         if is_due {
             self.picture.said.have_ball = has.then_some(clock.tick);
-            self.outbox.broadcast(Message::HaveBall(HaveBall {
+            self.client.broadcast(&HaveBall {
                 time: milliseconds(clock),
                 robot: self.id.number,
                 have_ball: has,
                 role: self.role.0 as RoleIndex,
-            }));
+            });
         }
     }
 
@@ -117,12 +120,12 @@ impl SpeakerItem<'_, '_> {
         let own = self.model.pose.position;
         let acquires = state(self.activity, strategy).acquires;
         if let Some((behaviour, side)) = self.picture.border.update(own, pitch.own_penalty_area(), acquires) {
-            self.outbox.broadcast(Message::Goalie(GoalieNews {
+            self.client.broadcast(&GoalieNews {
                 time: milliseconds(clock),
                 robot: self.id.number,
                 behaviour,
                 side,
-            }));
+            });
         }
     }
 
@@ -133,20 +136,34 @@ impl SpeakerItem<'_, '_> {
         }
         self.picture.said.position = Some(clock.tick);
         let pose = self.model.pose;
-        self.outbox.broadcast(Message::Position(Position {
+        self.client.broadcast(&Position {
             time: milliseconds(clock),
             robot: self.id.number,
             position: pose.position,
             heading: unit(pose.heading),
             configuration: self.swapping.and_then(|swapping| swapping.machine.configuration()).cloned(),
-        }));
+        });
         if let Some((values, wish)) = self.swapping.and_then(|swapping| swapping.values.clone()) {
-            self.outbox.broadcast(Message::Values(Values {
+            self.client.broadcast(&Values {
                 time: milliseconds(clock),
                 robot: self.id.number,
                 values: values.to_vec(),
                 wish,
-            }));
+            });
+        }
+    }
+}
+
+impl SpeakerItem<'_, '_> {
+    /// A ball is reported again and again while it is in sight.
+    fn report_ball(&mut self, talk: &Talk, clock: &Clock) {
+        let every = clock.ticks(talk.ball_every);
+        let is_due = self.picture.said.ball.is_none_or(|last| clock.tick >= last + every);
+        let in_sight = |seen: u64| clock.tick.saturating_sub(seen) <= every;
+        if let Some(ball) = self.model.ball.filter(|ball| is_due && in_sight(ball.seen)) {
+            self.picture.said.ball = Some(clock.tick);
+            let age = clock.tick.saturating_sub(ball.seen) as f32 * clock.dt;
+            self.client.broadcast(&BallReport { time: milliseconds(clock), position: ball.position, age });
         }
     }
 }

@@ -9,6 +9,7 @@ mod tests;
 
 use std::collections::VecDeque;
 
+use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
@@ -16,15 +17,16 @@ pub use ball_filter::{BallFilter, roll_on};
 
 use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
+use crate::handling::Handling;
 use crate::ids::{RobotId, Team};
 use crate::messages::Message;
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::Number;
-use crate::radio::Inbox;
 use crate::robot::{OffPitch, Robot};
 use crate::schedule::{Tick, TickSystems};
-use crate::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
+use crate::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, should_be_seen};
 use crate::strategy::Strategies;
+use crate::tcm::Inbox;
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));
@@ -122,9 +124,10 @@ impl WorldModel {
 
     fn dead_reckon(&mut self, odometry: Pose, tick: u64) {
         if let Some(before) = self.odometry.replace(odometry) {
-            let way = before.to_local(odometry.position);
             let turn = wrap_angle(odometry.heading - before.heading);
-            self.pose = reckon(self.pose, way.length() * way.x.signum(), turn);
+            let way = before.to_local(odometry.position);
+            self.pose =
+                Pose { position: self.pose.to_field(way), heading: wrap_angle(self.pose.heading + turn) };
         }
         self.past.push_back((tick, self.pose));
         if self.past.len() > PAST {
@@ -165,6 +168,14 @@ impl WorldModel {
         self.past.iter_mut().for_each(|(_, pose)| *pose = correct(*pose));
     }
 
+    /// The chin holds the ball, a little ahead of the robot's centre.
+    fn feel_ball(&mut self, ahead: Vec2, tick: u64) {
+        let position = self.pose.to_field(ahead);
+        self.filter = Some(BallFilter::new(position, 0.02));
+        self.ball = Some(BallBelief { position, velocity: Vec2::ZERO, seen: tick });
+        self.misses = 0;
+    }
+
     fn see_ball(&mut self, frame: &Frame, eyes: &Eyes, dt_since_last: f32) {
         let then = self.pose_at(frame.taken);
         let filter = self.filter.map(|filter| filter.predict(dt_since_last, EXPECTED_ROLLING));
@@ -186,7 +197,7 @@ impl WorldModel {
             None => {
                 self.filter = filter;
                 let expected = filter.map(|filter| Sighting::of(filter.position, then));
-                let missed = |expected| should_be_seen(eyes, expected) && !is_hidden(expected, frame);
+                let missed = |expected| should_be_seen(eyes, frame, expected) && !is_hidden(expected, frame);
                 self.misses += u32::from(expected.is_some_and(missed));
             }
         }
@@ -294,16 +305,28 @@ fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
     }
 }
 
-type Minds<'a> =
-    (&'a RobotId, &'a Robot, &'a Inbox, &'a Eyesight, &'a Percepts, &'a Odometry, &'a mut WorldModel);
+/// A robot and what its senses tell.
+#[derive(QueryData)]
+#[query_data(mutable)]
+struct Mind {
+    id: &'static RobotId,
+    robot: &'static Robot,
+    inbox: &'static Inbox,
+    eyesight: &'static Eyesight,
+    percepts: &'static Percepts,
+    odometry: &'static Odometry,
+    handling: &'static Handling,
+    model: &'static mut WorldModel,
+}
 
 fn update_world_models(
     clock: Res<Clock>,
     pitch: Res<Pitch>,
     strategies: Res<Strategies>,
-    mut robots: Query<Minds, Without<OffPitch>>,
+    mut robots: Query<Mind, Without<OffPitch>>,
 ) {
-    for (id, robot, inbox, eyesight, percepts, odometry, mut model) in &mut robots {
+    for mind in &mut robots {
+        let MindItem { id, robot, inbox, eyesight, percepts, odometry, handling, mut model } = mind;
         if !robot.decides(&clock) {
             continue;
         }
@@ -316,6 +339,9 @@ fn update_world_models(
             model.see_ball(frame, &eyesight.sensing.eyes, since as f32 * clock.dt);
             model.see_robots(frame, &eyesight.sensing.eyes);
             model.last_frame = Some(frame.taken);
+        }
+        if let Some(chin) = robot.kind.chin.filter(|_| handling.holds()) {
+            model.feel_ball(chin.pocket(), clock.tick);
         }
         if let (Some(ball), Some(filter), Some(last)) = (&mut model.ball, model.filter, model.last_frame) {
             let age = (clock.tick - last) as f32 * clock.dt;

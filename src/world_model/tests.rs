@@ -10,7 +10,7 @@ use crate::data::Source;
 use crate::ids::Team::{Away, Home};
 use crate::perception::fixture::{cye, idle, pitch};
 use crate::rng::Seed;
-use crate::sense::{MemorySpans, Sensing};
+use crate::sense::{MemorySpans, Sensing, reckon};
 
 struct Bench {
     world: World,
@@ -39,7 +39,8 @@ impl Bench {
         world.insert_resource(Strategies([strategy.clone(), strategy]));
         let robot = Robot::new(Arc::new(cye()), &clock);
         let eyesight = Eyesight::new(Arc::new(sensing), Seed(1), id);
-        let senses = (eyesight, Percepts::default(), Odometry::new(Seed(1), id));
+        let body = (Odometry::new(Seed(1), id), Handling::new(Seed(1), id));
+        let senses = (eyesight, Percepts::default(), body);
         let robot = world.spawn((id, robot, senses, Inbox::default(), WorldModel::told(start))).id();
         let mut bench = Bench { world, robot, start };
         bench.decide(0);
@@ -61,7 +62,7 @@ impl Bench {
     /// The wheels report a way since the last decision, m ahead and rad.
     fn drive(&mut self, ahead: f32, turn: f32) {
         let mut odometry = self.world.get_mut::<Odometry>(self.robot).expect("the robot has wheels");
-        odometry.pose = reckon(odometry.pose, ahead, turn);
+        odometry.pose = reckon(odometry.pose, Vec2::X * ahead, turn);
     }
 
     /// A frame arrives.
@@ -72,7 +73,14 @@ impl Bench {
     /// A frame without noise, taken where the robot started.
     fn frame(&self, taken: u64, ball: Option<Vec2>, robots: &[(Team, Vec2)]) -> Frame {
         let robots = robots.iter().map(|(team, at)| (*team, Sighting::of(*at, self.start))).collect();
-        Frame { taken, ball: ball.map(|at| Sighting::of(at, self.start)), robots, fix: self.start }
+        Frame {
+            taken,
+            ball: ball.map(|at| Sighting::of(at, self.start)),
+            robots,
+            fix: self.start,
+            pan: 0.0,
+            chin_down: false,
+        }
     }
 
     /// A robot that stands still is shown this and decides at once.
@@ -131,7 +139,7 @@ fn a_frame_taken_between_two_decisions_is_placed_from_between_their_poses() {
     bench.decide(3);
     let taken_from = Pose::new(0.0, 0.0, 3.2);
     let ball = Some(Sighting { range: 2.0, bearing: 0.0 });
-    bench.show(Frame { taken: 2, ball, robots: vec![], fix: taken_from });
+    bench.show(Frame { taken: 2, ball, robots: vec![], fix: taken_from, pan: 0.0, chin_down: false });
     let model = bench.decide(6);
     assert_at(model.ball.expect("it was seen").position, 2.0 * unit(3.2), 1e-4);
     assert_pose(model.pose, Pose::new(0.0, 0.0, 3.3));

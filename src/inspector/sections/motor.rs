@@ -10,6 +10,7 @@ use crate::inspector::subject::Looked;
 use crate::inspector::weights::Place;
 use crate::inspector::{figures, table, tints};
 use crate::motor::SteeringIntent;
+use crate::robot::DriveCommand;
 use crate::strategy::{Combination, Term};
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
@@ -138,9 +139,17 @@ fn sum(ui: &mut egui::Ui, robot: &Looked) {
 fn outcome(ui: &mut egui::Ui, robot: &Looked) {
     let name = if robot.of.piloted { "would" } else { "intends" };
     table::line(ui, name, intent(robot));
-    let speeds = robot.of.wheels.speeds;
-    let [left, right] = [speeds.left, speeds.right].map(figures::speed);
-    table::line(ui, "wheels", format!("left {left}, right {right}"));
+    match robot.of.command {
+        DriveCommand::Wheels(speeds) => {
+            let [left, right] = [speeds.left, speeds.right].map(figures::speed);
+            table::line(ui, "wheels", format!("left {left}, right {right}"));
+        }
+        DriveCommand::Gait(gait) => {
+            let [ahead, left] = [gait.ahead, gait.left].map(figures::speed);
+            let turn = gait.turn.to_degrees().round();
+            table::line(ui, "legs", format!("{ahead} ahead, {left} to the left, {turn}°/s"));
+        }
+    }
 }
 
 fn intent(robot: &Looked) -> RichText {

@@ -26,7 +26,7 @@ pub struct Scenario {
     pub source: String,
     pub description: String,
     /// The file's name.
-    pub pitch: String,
+    pub game: String,
     /// The file's name.
     pub radio: String,
     pub seeds: Vec<u64>,
@@ -139,7 +139,7 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
         name: file.name.clone(),
         source: file.source.clone(),
         description: file.description.clone(),
-        pitch: file.pitch.clone(),
+        game: file.game.clone(),
         radio: file.radio.clone(),
         seeds,
         seconds: file.seconds,

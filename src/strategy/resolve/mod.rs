@@ -19,9 +19,16 @@ use crate::geometry::Zone;
 
 type Result<T> = std::result::Result<T, DataError>;
 
-pub(super) fn resolve(file: &StrategyFile, source: &Source) -> Result<Strategy> {
-    let mut resolver = Resolver { file, source, slots: 0, open: Vec::new() };
+/// Positions are stretched from the pitch that the file was written for to the one that is played on, of this size in metres.
+pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>) -> Result<Strategy> {
     let root = Field::root();
+    if let Some(drawn) = file.pitch.filter(|drawn| !(drawn.is_finite() && drawn.min_element() > 0.0)) {
+        return Err(
+            source.error_at(&root.key("pitch"), format!("{drawn} is no pitch: length and width in metres"))
+        );
+    }
+    let scale = pitch.zip(file.pitch).map_or(Vec2::ONE, |(played, drawn)| played / drawn);
+    let mut resolver = Resolver { file, source, scale, slots: 0, open: Vec::new() };
     resolver.check_named_pieces()?;
     let assemblages = (file.assemblages.iter())
         .map(|(name, assemblage)| resolver.assemblage(name, assemblage, &root.key("assemblages").key(name)))
@@ -40,7 +47,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source) -> Result<Strategy> 
         robot_kinds: file.robot_kinds.clone(),
         roles,
         players,
-        kick_off: file.kick_off.clone(),
+        kick_off: file.kick_off.scaled(scale),
         machines,
         assemblages,
         teamwork: resolver.teamwork(&root.key("teamwork"))?,
@@ -51,6 +58,8 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source) -> Result<Strategy> 
 struct Resolver<'a> {
     file: &'a StrategyFile,
     source: &'a Source,
+    /// From positions in the file to those on the pitch that is played on.
+    scale: Vec2,
     slots: usize,
     /// Names that are being looked up, to notice one that is defined by itself.
     open: Vec<String>,
@@ -213,6 +222,8 @@ impl Resolver<'_> {
             speed: file.speed,
             reverse: file.reverse,
             acquires: file.acquires,
+            hold: file.hold,
+            kicks: file.kick.clone(),
             turn,
             transitions,
         })
@@ -233,8 +244,9 @@ impl Resolver<'_> {
                 {
                     self.role_ref(role, &at.key("homebase_rule"))?;
                 }
-                let homebases = homebases.clone();
-                (tag, Part::Plays(Play { machine, danger_zone: *danger_zone, homebases, homebase_rule }))
+                let homebases = homebases.iter().map(|home| *home * self.scale).collect();
+                let danger_zone = danger_zone.scaled(self.scale);
+                (tag, Part::Plays(Play { machine, danger_zone, homebases, homebase_rule }))
             }
             RoleFile::ActsAs { tag, sub_roles } => {
                 let at = at.key("sub_roles");

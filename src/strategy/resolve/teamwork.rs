@@ -4,7 +4,7 @@ use super::{Resolver, Result};
 use crate::data::Field;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
-    CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,
+    BallBooking, CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,
 };
 use crate::teamwork::policy::Cast;
 
@@ -20,6 +20,9 @@ impl Resolver<'_> {
         let goalie =
             (file.goalie.as_ref()).map(|name| self.role_index(name, &at.key("goalie"))).transpose()?;
         self.talk(&file.talk, &at.key("talk"))?;
+        if let Some(booking) = &file.ball_booking {
+            self.ball_booking(booking, &at.key("ball_booking"))?;
+        }
         let role_swap = match &file.role_swap {
             Some(swap) => Some(self.role_swap(swap, &at.key("role_swap"))?),
             None => None,
@@ -32,6 +35,7 @@ impl Resolver<'_> {
             goalie,
             talk: file.talk,
             role_swap,
+            ball_booking: file.ball_booking,
         })
     }
 
@@ -46,7 +50,20 @@ impl Resolver<'_> {
         self.not_negative(talk.position_memory, &at.key("position_memory"))?;
         self.positive(talk.claim_every, &at.key("claim_every"))?;
         self.not_negative(talk.claim_memory, &at.key("claim_memory"))?;
-        self.not_negative(talk.claim_radius, &at.key("claim_radius"))
+        self.not_negative(talk.claim_radius, &at.key("claim_radius"))?;
+        self.positive(talk.ball_every, &at.key("ball_every"))?;
+        self.not_negative(talk.ball_memory, &at.key("ball_memory"))
+    }
+
+    fn ball_booking(&self, booking: &BallBooking, at: &Field) -> Result<()> {
+        self.not_negative(booking.threshold, &at.key("threshold"))?;
+        self.positive(booking.renewal, &at.key("renewal"))?;
+        if !(booking.timeout.is_finite() && booking.timeout > booking.renewal) {
+            let message =
+                format!("must be longer than the renewal of {} s, or every booking lapses", booking.renewal);
+            return self.fault(&at.key("timeout"), message);
+        }
+        Ok(())
     }
 
     fn role_swap(&self, file: &RoleSwapFile, at: &Field) -> Result<RoleSwapSpec> {

@@ -13,11 +13,13 @@ impl Resolver<'_> {
                 *point = self.expand(&self.file.percepts, "percept", name, at, |s, p| s.point(p, at))?;
             }
             Point::Ball
+            | Point::TeamBall
             | Point::OurGoal
             | Point::TheirGoal
             | Point::Homebase
             | Point::Own
-            | Point::Carrier => {}
+            | Point::Carrier
+            | Point::Booker => {}
             Point::Teammate(role) => self.role_ref(role, &at.index(0))?,
             Point::SupportSpot { behind, aside } => {
                 self.finite(*behind, &at.key("behind"))?;
@@ -26,9 +28,13 @@ impl Resolver<'_> {
             Point::AwayFromGoalie { x, y } => {
                 self.finite(*x, &at.key("x"))?;
                 self.not_negative(*y, &at.key("y"))?;
+                (*x, *y) = (*x * self.scale.x, *y * self.scale.y);
             }
             Point::BallIn(seconds) => self.not_negative(*seconds, at)?,
-            Point::At(place) => self.finite_point(*place, at)?,
+            Point::At(place) => {
+                self.finite_point(*place, at)?;
+                *place *= self.scale;
+            }
             Point::Closest(of) | Point::Average(of) => self.points(of, &at.index(0))?,
             Point::Midpoint(a, b) => {
                 self.point(a, &at.index(0))?;
@@ -112,10 +118,13 @@ impl Resolver<'_> {
     fn zone(&mut self, zone: &mut ZoneName, at: &Field) -> Result<()> {
         match zone {
             ZoneName::Named(name) => match self.file.zones.get(name) {
-                Some(known) => *zone = ZoneName::Exactly(*known),
+                Some(known) => *zone = ZoneName::Exactly(known.scaled(self.scale)),
                 None => return self.fault(at, unknown(&self.file.zones, "zone", name)),
             },
-            ZoneName::Exactly(zone) => self.finite_zone(*zone, at)?,
+            ZoneName::Exactly(zone) => {
+                self.finite_zone(*zone, at)?;
+                *zone = zone.scaled(self.scale);
+            }
             ZoneName::DangerZone | ZoneName::PenaltyArea => {}
         }
         Ok(())
@@ -126,7 +135,13 @@ impl Resolver<'_> {
             Feature::Is(name) => {
                 *feature = self.expand(&self.file.features, "feature", name, at, |s, f| s.feature(f, at))?;
             }
-            Feature::Always | Feature::On(_) | Feature::HasBall | Feature::GoalieIsOut => {}
+            Feature::Always
+            | Feature::On(_)
+            | Feature::HasBall
+            | Feature::HasBooked
+            | Feature::TeammateHasBooked
+            | Feature::HoldsBall
+            | Feature::GoalieIsOut => {}
             Feature::InRole(role) => self.role_ref(role, at)?,
             Feature::TeammateHasBall(roles) => {
                 for (i, role) in roles.iter_mut().enumerate() {

@@ -1,0 +1,75 @@
+//! Kicks: how fast a ball leaves and where to, so that it rolls as far as measured kicks did. Pure but for the dice.
+
+use bevy::prelude::*;
+
+use crate::geometry::unit;
+use crate::rng::Dice;
+use crate::robot::Kick;
+
+/// A kick in progress, in ticks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kicking {
+    pub kick: Kick,
+    /// When the leg or the chest meets the ball.
+    pub strikes: u64,
+    pub until: u64,
+}
+
+impl Kicking {
+    /// A kick that begins in this tick and takes `ticks` in all.
+    pub fn begun(kick: Kick, tick: u64, ticks: u64) -> Kicking {
+        Kicking { kick, strikes: tick + ticks / 2, until: tick + ticks }
+    }
+}
+
+/// Shortest run-out of a kick that goes wrong, as a share of the mean.
+const WORST: f32 = 0.2;
+
+/// The velocity in m/s, in the robot's frame, of a ball at rest that was kicked: it rolls out as far as drawn if its
+/// deceleration is `rolling` m/s².
+pub fn launch(kick: &Kick, rolling: f32, dice: &mut Dice) -> Vec2 {
+    let run_out = (kick.run_out + dice.normal(kick.run_out_spread)).max(WORST * kick.run_out);
+    let direction = kick.direction + dice.normal(kick.spread);
+    unit(direction.to_radians()) * (2.0 * rolling * run_out).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::angle;
+    use crate::rng::Seed;
+
+    const POWER: Kick = Kick {
+        direction: 0.0,
+        run_out: 2.22,
+        run_out_spread: 0.78,
+        spread: 14.6,
+        time: 1.2,
+        from_hold: true,
+    };
+
+    #[test]
+    fn the_power_kick_launches_at_the_measured_speed() {
+        let still = Kick { run_out_spread: 0.0, spread: 0.0, ..POWER };
+        let launched = launch(&still, 0.35, &mut Dice::new(Seed(1), "test", None));
+        assert!((launched - Vec2::new(1.2466, 0.0)).length() < 1e-3, "{launched}");
+    }
+
+    #[test]
+    fn kicks_scatter_as_measured() {
+        let mut dice = Dice::new(Seed(2), "test", None);
+        let launched: Vec<Vec2> = (0..20_000).map(|_| launch(&POWER, 0.35, &mut dice)).collect();
+        let count = launched.len() as f32;
+        let run_out = |v: &Vec2| v.length_squared() / 0.7;
+        let mean = launched.iter().map(run_out).sum::<f32>() / count;
+        assert!((mean - 2.22).abs() < 0.03, "{mean}");
+        let spread = (launched.iter().map(|v| angle(*v).powi(2)).sum::<f32>() / count).sqrt().to_degrees();
+        assert!((spread - 14.6).abs() < 0.3, "{spread}");
+    }
+
+    #[test]
+    fn a_kick_strikes_half_way() {
+        let kicking = Kicking::begun(POWER, 100, 72);
+        assert_eq!((kicking.strikes, kicking.until), (136, 172));
+    }
+}

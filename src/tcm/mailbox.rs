@@ -1,0 +1,92 @@
+//! Between a robot's modules and its TCM: the client that they put data into, and the inbox of what its teamwork has heard.
+
+use bevy::prelude::*;
+
+use super::client::{QueueRule, Queues};
+use super::data::{Arrived, Data};
+use super::external_message::{DataType, Entity as Party, Module};
+use crate::ids::RobotId;
+use crate::messages::{Message, MessageKind};
+use crate::protocol::role_swap::{Number, Sequence};
+
+/// A robot's proxy of the TCM: it keeps what modules want to say until the TCM is ready for it.
+#[derive(Component, Clone, Debug)]
+pub struct TcmClient {
+    team: u8,
+    pub(super) queues: Queues<Outgoing>,
+}
+
+/// Data that wait to be sent.
+#[derive(Clone, Debug)]
+pub(super) struct Outgoing {
+    pub to: Party,
+    pub module: Module,
+    pub data_type: DataType,
+    pub kind: MessageKind,
+    pub sequence: Option<Sequence>,
+    pub bytes: Vec<u8>,
+}
+
+impl TcmClient {
+    pub fn new(robot: RobotId, rule: QueueRule) -> TcmClient {
+        TcmClient { team: robot.team as u8, queues: Queues::new(rule) }
+    }
+
+    /// To every team mate, and to the computers that listen.
+    pub fn broadcast<T: Data>(&mut self, data: &T) {
+        self.post(Party::Team(self.team), data);
+    }
+
+    /// To one team mate.
+    pub fn send<T: Data>(&mut self, to: Number, data: &T) {
+        self.post(Party::Robot { team: self.team, number: to }, data);
+    }
+
+    /// To anybody.
+    pub fn post<T: Data>(&mut self, to: Party, data: &T) {
+        let outgoing = Outgoing {
+            to,
+            module: T::MODULE,
+            data_type: T::TYPE,
+            kind: data.kind(),
+            sequence: data.sequence(),
+            bytes: data.serialise(),
+        };
+        self.queues.push(T::MODULE, outgoing);
+    }
+
+    /// Forgets what waits, as when the robot is switched off.
+    pub fn clear(&mut self) {
+        self.queues.take(usize::MAX);
+    }
+
+    /// The queue of each module: items that wait, and its counters.
+    pub fn rows(&self) -> impl ExactSizeIterator<Item = (Module, usize, super::client::QueueCounters)> {
+        self.queues.rows()
+    }
+}
+
+/// What a robot has heard from its team since its last decision, in the order of arrival; written by the Deliver stage.
+#[derive(Component, Clone, Debug, Default)]
+pub struct Inbox(pub Vec<Received>);
+
+/// A message that arrived.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Received {
+    pub from: Number,
+    pub message: Message,
+}
+
+/// The callback of the teamwork's modules: what a team mate says waits in the inbox for the robot's next decision.
+pub(super) fn put_into_inbox<T: Data + Into<Message>>(
+    arrived: On<Arrived<T>>,
+    mut robots: Query<(&RobotId, &mut Inbox)>,
+) {
+    let Ok((id, mut inbox)) = robots.get_mut(arrived.entity) else { return };
+    if let Party::Robot { team, number } = arrived.from
+        && team == id.team as u8
+        && number != id.number
+    {
+        inbox.0.push(Received { from: number, message: arrived.data.clone().into() });
+    }
+}

@@ -1,0 +1,228 @@
+//! The Team Communication Module, TCM (TeamChaos, section 3): carries data of any type between modules of different robots.
+//!
+//! A module puts data into its robot's [`TcmClient`]. In the Transmit stage the TCM takes them, makes [`ExternalMessage`]s of
+//! them and cuts these into datagrams for a carrier: the simulated radio, or UDP. In the Deliver stage it puts arriving
+//! datagrams together again and calls whoever registered for their type. It keeps no connections and repeats nothing.
+
+pub mod client;
+pub mod counters;
+mod data;
+pub mod directory;
+pub mod external_message;
+pub mod fragments;
+mod mailbox;
+mod settings;
+#[cfg(test)]
+mod tests;
+pub mod udp;
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+pub use data::{Arrived, Data, RegisterData, Registered, Registry};
+pub use directory::Directory;
+pub use external_message::{Address, DataType, ExternalMessage, Module};
+pub use mailbox::{Inbox, Received, TcmClient};
+pub use settings::TcmSettings;
+
+use crate::clock::Clock;
+use crate::ids::{RobotId, Team};
+use crate::messages::{BallReport, Book, GoalieNews, HaveBall, MessageKind, Position, Text, Values};
+use crate::protocol::role_swap::{self, Sequence};
+use crate::robot::Robot;
+use crate::schedule::{Tick, TickSystems};
+use counters::TypeCounters;
+use external_message::Entity as Party;
+use fragments::{Assembly, cut};
+use mailbox::{Outgoing, put_into_inbox};
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Registry>()
+        .init_resource::<Incoming>()
+        .init_resource::<OnAir>()
+        .init_resource::<Addresses>()
+        .configure_sets(Tick, TcmSystems::Receive.in_set(TickSystems::Deliver))
+        .configure_sets(Tick, TcmSystems::Send.in_set(TickSystems::Transmit))
+        .register_data::<Position>()
+        .register_data::<HaveBall>()
+        .register_data::<GoalieNews>()
+        .register_data::<role_swap::Message>()
+        .register_data::<Values>()
+        .register_data::<Book>()
+        .register_data::<BallReport>()
+        .register_data::<Text>()
+        .add_observer(put_into_inbox::<Position>)
+        .add_observer(put_into_inbox::<HaveBall>)
+        .add_observer(put_into_inbox::<GoalieNews>)
+        .add_observer(put_into_inbox::<role_swap::Message>)
+        .add_observer(put_into_inbox::<Values>)
+        .add_observer(put_into_inbox::<Book>)
+        .add_observer(put_into_inbox::<BallReport>)
+        .add_systems(Tick, receive_messages.in_set(TcmSystems::Receive))
+        .add_systems(Tick, send_messages.in_set(TcmSystems::Send));
+}
+
+/// Carriers bring datagrams before the one, and take them after the other.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TcmSystems {
+    Receive,
+    Send,
+}
+
+/// Datagrams that are to go on air in this tick; emptied by the carrier.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct OnAir(pub Vec<Datagram>);
+
+/// A datagram on its way to one receiver.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Datagram {
+    pub from: RobotId,
+    pub to: Party,
+    /// What is in it, for the radio's fault rules, log and counters.
+    pub kind: MessageKind,
+    pub sequence: Option<Sequence>,
+    pub bytes: Arc<[u8]>,
+}
+
+/// Who takes part in the match, and where each is (the paper's `TCM.ini`).
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Addresses(pub Directory);
+
+/// Datagrams that a carrier has brought in this tick, with their receivers, in order.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Incoming(pub Vec<(RobotId, Arc<[u8]>)>);
+
+/// The TCM of one robot.
+#[derive(Component, Clone, Debug)]
+pub struct Tcm {
+    settings: TcmSettings,
+    /// Of the messages that it sent.
+    counter: u32,
+    pub assembly: Assembly,
+    pub counters: TypeCounters,
+}
+
+impl Tcm {
+    pub fn new(settings: TcmSettings, clock: &Clock) -> Tcm {
+        Tcm {
+            settings,
+            counter: 0,
+            assembly: Assembly::new(settings.limits(clock)),
+            counters: TypeCounters::default(),
+        }
+    }
+}
+
+/// The entity of the TCM that a robot is.
+pub fn party(robot: RobotId) -> Party {
+    Party::Robot { team: robot.team as u8, number: robot.number }
+}
+
+/// The robot that an entity of the TCM is.
+pub fn as_robot(party: Party) -> Option<RobotId> {
+    match party {
+        Party::Robot { team: 0, number } => Some(RobotId::new(Team::Home, number)),
+        Party::Robot { team: 1, number } => Some(RobotId::new(Team::Away, number)),
+        _ => None,
+    }
+}
+
+type Listening<'a> = (Entity, &'a RobotId, &'a Robot, &'a mut Inbox, &'a mut Tcm);
+
+/// Puts messages together and calls those who wait for their types.
+fn receive_messages(
+    clock: Res<Clock>,
+    registry: Res<Registry>,
+    mut incoming: ResMut<Incoming>,
+    mut commands: Commands,
+    mut robots: Query<Listening>,
+) {
+    for (_, _, robot, mut inbox, mut tcm) in &mut robots {
+        let was_read = clock.tick > 0 && robot.is_due(clock.tick - 1);
+        if (was_read || !robot.condition.hears()) && !inbox.0.is_empty() {
+            inbox.0.clear();
+        }
+        let expired = tcm.assembly.expire(clock.tick);
+        tcm.counters.expired(expired);
+    }
+    for (to, datagram) in incoming.0.drain(..) {
+        let robot = robots.iter_mut().find(|(_, id, ..)| **id == to);
+        let Some((entity, id, _, _, mut tcm)) = robot else { continue };
+        let Some(message) = tcm.take_in(&datagram, party(*id), clock.tick) else { continue };
+        let (module, data_type) = (message.source.module, message.data_type);
+        match registry.get(data_type) {
+            None => tcm.counters.unknown(module, data_type),
+            Some(known) if (known.deliver)(&mut commands, entity, message.source.entity, &message.data) => {
+                tcm.counters.received(module, data_type, message.data.len());
+            }
+            Some(_) => tcm.counters.not_unserialisable(module, data_type),
+        }
+    }
+}
+
+type Speaking<'a> = (&'a RobotId, &'a mut TcmClient, &'a mut Tcm);
+
+/// Takes what the modules want to say and cuts it into datagrams, for every receiver anew.
+fn send_messages(directory: Res<Addresses>, mut on_air: ResMut<OnAir>, mut robots: Query<Speaking>) {
+    on_air.0.clear();
+    if robots.iter().all(|(_, client, _)| client.queues.is_empty()) {
+        return;
+    }
+    for (id, mut client, mut tcm) in robots.iter_mut().sort::<&RobotId>() {
+        let takes = tcm.settings.takes;
+        for outgoing in client.queues.take(takes) {
+            tcm.send(*id, outgoing, &directory.0, &mut on_air);
+        }
+    }
+}
+
+impl Tcm {
+    fn send(&mut self, from: RobotId, outgoing: Outgoing, directory: &Directory, on_air: &mut OnAir) {
+        let Outgoing { to, module, data_type, kind, sequence, bytes } = outgoing;
+        let source = Address { entity: party(from), module };
+        let destination = Address { entity: to, module };
+        let message = ExternalMessage { source, destination, data_type, data: bytes };
+        let Ok(pieces) = cut(&message, self.counter, self.settings.datagram) else {
+            self.counters.too_large(module, data_type);
+            return;
+        };
+        self.counter = self.counter.wrapping_add(1);
+        let mut datagrams = 0;
+        for piece in pieces {
+            let bytes: Arc<[u8]> = piece.into();
+            for to in directory.receivers(to, source.entity) {
+                on_air.0.push(Datagram { from, to, kind, sequence, bytes: bytes.clone() });
+                datagrams += 1;
+            }
+        }
+        self.counters.sent(module, data_type, message.data.len(), datagrams);
+    }
+
+    fn take_in(&mut self, datagram: &[u8], to: Party, tick: u64) -> Option<ExternalMessage> {
+        let message = match self.assembly.accept(tick, datagram) {
+            Ok(message) => message?,
+            Err(_) => {
+                self.counters.malformed();
+                return None;
+            }
+        };
+        if message.destination.entity.includes(to) {
+            return Some(message);
+        }
+        self.counters.foreign();
+        None
+    }
+}
+
+impl Directory {
+    /// Whom a message reaches: who is meant, and every computer if it is for a team, so that tools can follow.
+    fn receivers(&self, to: Party, from: Party) -> impl Iterator<Item = Party> {
+        let listens = move |party: Party| match to {
+            Party::Team(_) => matches!(party, Party::Computer(_)),
+            _ => false,
+        };
+        let known = self.entries().map(|(party, _)| party);
+        known.filter(move |party| *party != from && (to.includes(*party) || listens(*party)))
+    }
+}

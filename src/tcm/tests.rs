@@ -1,0 +1,1 @@
+//! Modules of robots that stand in an otherwise empty world, over a radio that loses nothing.
