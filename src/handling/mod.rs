@@ -101,8 +101,12 @@ fn decide_handling(
         let near = near_ball((body, pose), (ball, ball_pose), &bodies);
         if let Some(chin) = &robot.kind.chin {
             // A kick from the hold keeps the ball until it strikes.
-            let kicks = handling.kicking.is_some_and(|kicking| clock.tick <= kicking.strikes);
-            let wanted = intent != KickIntent::Nothing || kicks;
+            let wanted = match (handling.kicking, intent) {
+                (Some(kicking), _) => clock.tick <= kicking.strikes,
+                (None, KickIntent::Hold) => true,
+                (None, KickIntent::Kick(_)) => handling.holds(),
+                (None, KickIntent::Nothing) => false,
+            };
             let dice = &mut handling.dice;
             let ticks = clock.ticks(chin.time);
             handling.grip =

@@ -8,7 +8,7 @@ use crate::schemas::{attraction, avoidance};
 use crate::world_model::WorldModel;
 
 /// It slows down within the first of these distances of its place, and stands within the second, m.
-const PLACE: (f32, f32) = (0.3, 0.06);
+const PLACE: (f32, f32) = (0.4, 0.15);
 /// Others are avoided within the first of these distances, most strongly within the second, m.
 const ROOM: (f32, f32) = (0.5, 0.25);
 /// A heading that is wrong by less is right, rad.
@@ -60,6 +60,6 @@ mod tests {
     fn at_its_place_it_turns_and_then_stands() {
         let turns = from(-1.0, 0.5, 1.0);
         assert!(matches!(turns, SteeringIntent::Steer { speed: 0.0, .. }), "{turns:?}");
-        assert_eq!(from(-1.02, 0.5, 0.05), SteeringIntent::Stop);
+        assert_eq!(from(-1.1, 0.5, 0.05), SteeringIntent::Stop);
     }
 }
