@@ -47,6 +47,7 @@ pub mod tcm;
 pub mod teamwork;
 #[cfg(feature = "window")]
 pub mod view;
+pub mod wire;
 pub mod world_model;
 
 use bevy::prelude::*;
@@ -57,7 +58,7 @@ pub fn simulation(app: &mut App) {
         schedule::plugin,
         physics::plugin,
         script::plugin,
-        (tcm::plugin, radio::plugin),
+        (tcm::plugin, radio::plugin, wire::plugin),
         sense::plugin,
         world_model::plugin,
         teamwork::plugin,
@@ -68,5 +69,17 @@ pub fn simulation(app: &mut App) {
         referee::plugin,
         game::plugin,
         record::plugin,
+    ));
+}
+
+/// What a robot needs that is a process of its own: its mind, without a world around it.
+pub fn mind(app: &mut App) {
+    app.add_plugins((
+        schedule::plugin,
+        (tcm::plugin, wire::plugin),
+        world_model::plugin,
+        teamwork::plugin,
+        behaviour::plugin,
+        (motor::plugin, head::plugin),
     ));
 }

@@ -39,7 +39,7 @@ fn faults_are_named_with_their_place() {
         ("a weight that is no number", "(1.0, \"dock\")", "(NaN, \"dock\")"),
         ("a weight in words", "(1.0, \"dock\")", "(\"much\", \"dock\")"),
         ("a speed out of range", "speed: 0.7", "speed: 7.0"),
-        ("a wrong type", "robot_kinds: [\"cye\"]", "robot_kinds: 3"),
+        ("a wrong type", "robot_kinds: [\"cye\", \"aibo_ers7\"]", "robot_kinds: 3"),
         ("a dead zone that is too large", "dead_zone: 0.15", "dead_zone: 0.9"),
         ("a missing comma", "players: [\"goalie\",", "players: [\"goalie\""),
         (

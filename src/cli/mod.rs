@@ -2,8 +2,10 @@
 
 mod check;
 mod play;
+mod robot;
 mod run;
 
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -12,6 +14,7 @@ use clap::{Args, Parser, Subcommand};
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
+use crate::wire::WirePlan;
 
 /// Robot soccer between teams of behaviour-based robots. Without a command it opens the window.
 #[derive(Debug, Parser)]
@@ -30,6 +33,8 @@ enum Command {
     Play(play::Play),
     /// Play a match headless, as fast as it goes, and print the result.
     Run(run::Run),
+    /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
+    Robot(robot::Robot),
     /// Read asset files and say what is wrong with them.
     Check(check::Check),
 }
@@ -46,9 +51,21 @@ struct MatchOptions {
     /// The away team's strategy.
     #[arg(long, value_name = "STRATEGY")]
     away: Option<String>,
-    /// The radio: a name among the assets or a path.
+    /// The radio: a name among the assets or a path, or `udp` for real sockets.
     #[arg(long, value_name = "RADIO")]
     radio: Option<String>,
+    /// Where robots and computers are, as a file; robots have ports of this machine from 7400 on if not given.
+    #[arg(long, value_name = "FILE")]
+    addresses: Option<PathBuf>,
+    /// A robot that is a process of its own, such as `home:1`; may be given several times. Implies `--radio udp`.
+    #[arg(long, value_name = "ROBOT")]
+    remote: Vec<RobotId>,
+    /// Let a referee box referee the match: the address that its packets are sent to, such as 127.0.0.1:3838.
+    #[arg(long, value_name = "ADDRESS")]
+    gamecontroller: Option<SocketAddr>,
+    /// Announce the match in the GameController's format to this address.
+    #[arg(long, value_name = "ADDRESS")]
+    announce: Option<SocketAddr>,
     /// Equal seeds give equal matches; 1 if not given.
     #[arg(long)]
     seed: Option<u64>,
@@ -59,11 +76,20 @@ struct MatchOptions {
 
 impl MatchOptions {
     fn choice(&self, pilot: Option<RobotId>) -> Choice {
+        let by_udp = self.radio.as_deref() == Some(UDP);
+        let wires = WirePlan {
+            udp: by_udp || !self.remote.is_empty(),
+            remote: self.remote.clone(),
+            gamecontroller: self.gamecontroller,
+            announce: self.announce,
+        };
         Choice {
             file: self.file.clone(),
             home: self.home.clone(),
             away: self.away.clone(),
-            radio: self.radio.clone(),
+            radio: self.radio.clone().filter(|_| !by_udp),
+            addresses: self.addresses.clone(),
+            wires,
             half_minutes: self.minutes,
             seed: self.seed.unwrap_or(1),
             pilot,
@@ -75,6 +101,9 @@ impl MatchOptions {
     }
 }
 
+/// The radio that is none: team messages go by UDP.
+const UDP: &str = "udp";
+
 /// Bad input.
 const BAD_INPUT: u8 = 2;
 
@@ -85,6 +114,7 @@ pub fn main() -> ExitCode {
         None => play::Play::default().run(&assets),
         Some(Command::Play(play)) => play.run(&assets),
         Some(Command::Run(run)) => run.run(&assets),
+        Some(Command::Robot(robot)) => robot.run(&assets),
         Some(Command::Check(check)) => check.run(&assets),
     });
     done.unwrap_or_else(|error| {

@@ -1,7 +1,7 @@
 //! `touchline run`: a match without a window, as fast as it goes.
 
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -14,6 +14,7 @@ use crate::ids::Team;
 use crate::radio::{LinkCounters, Traffic};
 use crate::record::BookingFigures;
 use crate::referee::RuleBook;
+use crate::wire::{self, CarrierFigures, RemoteFigures, UdpCarrier};
 
 #[derive(Args, Debug, Default)]
 pub(super) struct Run {
@@ -43,6 +44,9 @@ struct Report {
     driven: [f64; 2],
     /// What a team's robots said to each other.
     messages: [Messages; 2],
+    /// What became of the datagrams that crossed a network.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    network: Option<Network>,
     /// Simulated seconds.
     seconds: f64,
     ticks: u64,
@@ -50,6 +54,42 @@ struct Report {
     ticks_per_second: f64,
     /// Equal digests mean equal matches.
     digest: String,
+}
+
+/// What crossed a network: the datagrams of the robots that this process ran, and how the others answered.
+#[derive(Debug, Serialize)]
+struct Network {
+    here: CarrierFigures,
+    elsewhere: Vec<RemoteFigures>,
+}
+
+impl Network {
+    fn of(game: &Match) -> Option<Network> {
+        let carrier = game.world().get_resource::<UdpCarrier>()?;
+        Some(Network { here: carrier.figures, elsewhere: wire::remote_figures(game.world()) })
+    }
+
+    fn print(&self) {
+        let here = self.here;
+        println!(
+            "datagrams   {:6} sent and {} received by the robots of this process",
+            here.sent, here.received
+        );
+        println!(
+            "            {:6} from computers, {} from nobody we know, {} not sent",
+            here.from_computers, here.foreign, here.refused
+        );
+        for robot in &self.elsewhere {
+            println!(
+                "{:11} {:6} ticks told, {} answered; {} datagrams sent and {} received",
+                robot.robot.to_string(),
+                robot.told,
+                robot.answered,
+                robot.sent,
+                robot.received
+            );
+        }
+    }
 }
 
 /// The packets of a team: a message to three team mates is three.
@@ -74,17 +114,25 @@ impl Messages {
 impl Run {
     pub(super) fn run(&self, assets: &AssetFolder) -> Result<ExitCode, DataError> {
         let plan = self.options.plan(assets, None)?;
-        play_headless(&plan, self.json);
+        play_headless(&plan, self.json)?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
 /// Plays a match to its end and prints the result.
-pub(super) fn play_headless(plan: &MatchPlan, json: bool) {
+///
+/// # Errors
+/// If the match needs a network that is not to be had.
+pub(super) fn play_headless(plan: &MatchPlan, json: bool) -> Result<(), DataError> {
     let bar = progress(plan);
     let started = Instant::now();
     let mut game = Match::new(plan);
+    wire::open(game.world_mut(), plan)?;
+    wire::greet(game.world_mut())?;
     while !game.is_over() {
+        if wire::is_in_real_time(plan) {
+            wait_until(started + Duration::from_secs_f64(game.clock().now()));
+        }
         game.tick();
         if game.clock().tick.is_multiple_of(REPORT_EVERY) {
             let [home, away] = game.state().score;
@@ -92,6 +140,7 @@ pub(super) fn play_headless(plan: &MatchPlan, json: bool) {
             bar.set_position(game.record().played as u64);
         }
     }
+    wire::finish(game.world_mut());
     bar.finish_and_clear();
     let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
     if json {
@@ -99,6 +148,12 @@ pub(super) fn play_headless(plan: &MatchPlan, json: bool) {
     } else {
         report.print();
     }
+    Ok(())
+}
+
+/// Sleeps until then; not at all, if it is past.
+fn wait_until(then: Instant) {
+    std::thread::sleep(then.saturating_duration_since(Instant::now()));
 }
 
 /// Ticks between two updates of the progress bar.
@@ -125,6 +180,7 @@ impl Report {
             bookings: record.bookings,
             driven: Team::BOTH.map(|team| record.driven_by(team)),
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
+            network: Network::of(game),
             seconds: clock.now(),
             ticks: clock.tick,
             ticks_per_second: clock.tick as f64 / wall_seconds,
@@ -140,6 +196,9 @@ impl Report {
         println!("driven      {:4.0} m : {:.0} m", self.driven[0], self.driven[1]);
         let [home, away] = &self.messages;
         println!("messages    {:6} : {} ({} and {} lost)", home.sent, away.sent, home.lost, away.lost);
+        if let Some(network) = &self.network {
+            network.print();
+        }
         let pace = self.ticks_per_second * self.seconds / self.ticks as f64;
         println!(
             "{:.0} s in {} ticks, {:.0} ticks/s, {pace:.0} times real time",

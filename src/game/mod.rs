@@ -11,8 +11,9 @@ pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
 
 pub use situation::{Placed, Situation};
 
+use crate::ball::Ball;
 use crate::clock::Clock;
-use crate::ids::{MatchEntity, Team};
+use crate::ids::{MatchEntity, RobotId, Team};
 use crate::physics::open_world;
 use crate::radio::{Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
 use crate::record::Record;
@@ -22,7 +23,8 @@ use crate::schedule::Tick;
 use crate::script::{Requests, Script};
 use crate::strategy::Strategies;
 use crate::tcm::{Addresses, Incoming, OnAir};
-use spawn::{spawn_ball, spawn_planned};
+use crate::wire;
+use spawn::{spawn_ball, spawn_mind, spawn_planned};
 
 pub(super) fn plugin(app: &mut App) {
     carry::plugin(app);
@@ -34,6 +36,7 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     for entity in old.iter(world).collect::<Vec<_>>() {
         world.despawn(entity);
     }
+    wire::close(world);
     let seed = Seed(plan.seed);
     let clock = Clock::default();
     world.insert_resource(clock);
@@ -66,6 +69,28 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     }
 }
 
+/// Puts one robot of a match into this world, without a body and without anybody else, for a process of its own.
+pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity {
+    let seed = Seed(plan.seed);
+    let clock = Clock::default();
+    world.insert_resource(clock);
+    world.insert_resource(seed);
+    world.insert_resource(plan.pitch.clone());
+    world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
+    world.insert_resource(MessageCounts::default());
+    world.insert_resource(Traffic::default());
+    world.insert_resource(RadioLog::default());
+    world.insert_resource(Addresses(plan.directory()));
+    world.spawn(Ball { kind: plan.ball });
+    spawn_mind(world, plan, robot, seed, &clock)
+}
+
+/// Plays one tick: first what crosses the network, if anything does, then the match.
+pub fn advance(world: &mut World) {
+    wire::exchange(world);
+    world.run_schedule(Tick);
+}
+
 /// A match without a window, run as fast as it can.
 pub struct Match {
     app: App,
@@ -85,7 +110,7 @@ impl Match {
     /// Plays one tick.
     pub fn tick(&mut self) {
         let world = self.app.world_mut();
-        world.run_schedule(Tick);
+        advance(world);
         // Otherwise the world remembers every message that has ever been delivered.
         world.clear_trackers();
     }

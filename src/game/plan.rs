@@ -1,6 +1,7 @@
 //! What is played: the match file, what the command line or the menu changes of it, and the plan with every file read.
 
-use std::path::Path;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
@@ -17,7 +18,8 @@ use crate::robot::RobotKind;
 use crate::script::Request;
 use crate::sense::Sensing;
 use crate::strategy::Strategy;
-use crate::tcm::{Directory, TcmSettings};
+use crate::tcm::{Directory, HOST, TcmSettings};
+use crate::wire::WirePlan;
 
 /// A match as it is written in `assets/matches/*.ron`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -61,6 +63,10 @@ pub struct Choice {
     pub seed: u64,
     /// The robot that a person drives.
     pub pilot: Option<RobotId>,
+    /// A file that says where robots and computers are.
+    pub addresses: Option<PathBuf>,
+    /// What crosses a network.
+    pub wires: WirePlan,
 }
 
 /// A match that can be played: every file is read and sound.
@@ -74,6 +80,8 @@ pub struct MatchPlan {
     pub tcm: TcmSettings,
     /// Where the robots and computers are that the TCM speaks to.
     pub addresses: Option<Directory>,
+    /// What crosses a network.
+    pub wires: WirePlan,
     /// Home first.
     pub teams: [TeamPlan; 2],
     pub seed: u64,
@@ -100,6 +108,8 @@ pub struct TeamPlan {
 pub const DEFAULT_MATCH: &str = "friendly";
 /// The port of the first robot, unless a match says where its robots are.
 pub const FIRST_PORT: u16 = 7400;
+/// The port of the match itself, counted from that of the first robot.
+const HOST_PORT: u16 = 98;
 /// The radio that a match has unless it names another.
 pub const DEFAULT_RADIO: &str = "good";
 
@@ -131,6 +141,8 @@ impl MatchPlan {
         file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
         let teams =
             [TeamPlan::read(assets, &file.home, &pitch)?, TeamPlan::read(assets, &file.away, &pitch)?];
+        let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
+        let wires = choice.wires.clone();
         let plan = MatchPlan {
             name: file.name,
             pitch,
@@ -138,7 +150,8 @@ impl MatchPlan {
             rules: file.rules,
             radio,
             tcm: file.tcm,
-            addresses: None,
+            addresses,
+            wires,
             teams,
             seed: choice.seed,
             pilot: choice.pilot,
@@ -146,7 +159,10 @@ impl MatchPlan {
             faults: Vec::new(),
             script: Vec::new(),
         };
-        plan.check_pilot()?;
+        plan.check_robot("--pilot", plan.pilot)?;
+        for robot in &plan.wires.remote {
+            plan.check_robot("--remote", Some(*robot))?;
+        }
         Ok(plan)
     }
 
@@ -170,15 +186,21 @@ impl MatchPlan {
         self.addresses.clone().unwrap_or_else(|| {
             let players = self.teams.each_ref().map(|team| team.strategy.players.len() as u8);
             // Sixteen robots at most find ports.
-            Directory::loopback(FIRST_PORT, &players).unwrap_or_default()
+            let robots = Directory::loopback(FIRST_PORT, &players).unwrap_or_default();
+            let host = SocketAddr::from((Ipv4Addr::LOCALHOST, FIRST_PORT + HOST_PORT));
+            robots.entries().chain([(HOST, host)]).collect()
         })
     }
 
-    fn check_pilot(&self) -> Result<(), DataError> {
-        match self.pilot {
-            Some(pilot) if !self.robots().any(|robot| robot == pilot) => {
+    /// Whether the match has the robot that an option names.
+    ///
+    /// # Errors
+    /// If it has not.
+    pub fn check_robot(&self, option: &str, robot: Option<RobotId>) -> Result<(), DataError> {
+        match robot {
+            Some(wanted) if !self.robots().any(|robot| robot == wanted) => {
                 let known = self.robots().map(|robot| robot.to_string());
-                Err(DataError::new("--pilot", no_such("robot", &pilot.to_string(), known)))
+                Err(DataError::new(option, no_such("robot", &wanted.to_string(), known)))
             }
             _ => Ok(()),
         }
@@ -200,6 +222,16 @@ impl TeamPlan {
             kind: Arc::new(checked(&assets.file("robots", &file.robot), RobotKind::fault)?),
             sensing: Arc::new(checked(&assets.file("sensing", &file.sensing), Sensing::fault)?),
         })
+    }
+}
+
+/// Reads who is where.
+fn read_addresses(path: &Path) -> Result<Directory, DataError> {
+    let source = Source::read(path)?;
+    let directory: Directory = source.parse()?;
+    match directory.fault() {
+        Some((entity, message)) => Err(source.error_at(&Field::root().key(&entity), message)),
+        None => Ok(directory),
     }
 }
 

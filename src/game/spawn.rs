@@ -51,32 +51,14 @@ pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
 
 /// Spawns one robot of a plan where the match begins, or beside the pitch, where it waits for the referee.
 pub(super) fn spawn_planned(world: &mut World, plan: &MatchPlan, id: RobotId, seed: Seed, clock: &Clock) {
-    let team = plan.team(id.team);
-    let start = plan.situation.as_ref().and_then(|situation| situation.robots.get(&id));
-    let entry = Entry {
-        id,
-        role: team.strategy.players[usize::from(id.number)],
-        kind: team.kind.clone(),
-        sensing: team.sensing.clone(),
-        strategy: &team.strategy,
-        seed,
-        pose: start.map_or_else(|| beside_the_pitch(&plan.pitch, id), |start| start.pose),
-        told: start.is_some(),
-        on: start.is_none_or(|start| start.on),
-        tcm: plan.tcm,
-    };
+    let entry = Entry::of(plan, id, seed);
     let (unit, trailer) = spawn_robot(world, &entry, clock);
     let handle = |entity: Entity| world.get::<RapierRigidBodyHandle>(entity).copied();
     if let Some(unit_body) = handle(unit) {
         let bodies = RobotBodies { unit: unit_body, trailer: trailer.and_then(handle) };
         world.entity_mut(unit).insert(bodies);
     }
-    if let Some(swapping) = Swapping::new(&team.strategy, id, seed) {
-        world.entity_mut(unit).insert(swapping);
-    }
-    if let Some(booking) = Booking::new(&team.strategy, id, clock) {
-        world.entity_mut(unit).insert(booking);
-    }
+    add_protocols(world, unit, &entry, clock);
     if plan.pilot == Some(id) {
         world.entity_mut(unit).insert(Pilot::default());
     }
@@ -99,61 +81,99 @@ struct Entry<'a> {
     tcm: TcmSettings,
 }
 
-/// Spawns a robot and its trailer; returns both.
-fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Option<Entity>) {
-    let kind = &entry.kind;
-    let mut robot = Robot::new(kind.clone(), clock);
+impl Entry<'_> {
+    fn of(plan: &MatchPlan, id: RobotId, seed: Seed) -> Entry<'_> {
+        let team = plan.team(id.team);
+        let start = plan.situation.as_ref().and_then(|situation| situation.robots.get(&id));
+        Entry {
+            id,
+            role: team.strategy.players[usize::from(id.number)],
+            kind: team.kind.clone(),
+            sensing: team.sensing.clone(),
+            strategy: &team.strategy,
+            seed,
+            pose: start.map_or_else(|| beside_the_pitch(&plan.pitch, id), |start| start.pose),
+            told: start.is_some(),
+            on: start.is_none_or(|start| start.on),
+            tcm: plan.tcm,
+        }
+    }
+}
+
+/// Everything of a robot but its body.
+fn parts(entry: &Entry, clock: &Clock) -> impl Bundle + use<> {
+    let mut robot = Robot::new(entry.kind.clone(), clock);
     robot.condition.crashed = !entry.on;
     let attacking = MatchState::attacking_at_start(entry.id.team);
     let model =
         if entry.told { WorldModel::told(attacking.turn_pose(entry.pose)) } else { WorldModel::default() };
-    let unit = world
-        .spawn((
-            (
-                Name::new(format!("robot {}", entry.id)),
-                MatchEntity,
-                entry.id,
-                robot,
-                entry.pose,
-                Twist::default(),
-                DriveCommand::idle(kind),
-                SteeringIntent::default(),
-                Contributions::default(),
-                MotorDice::new(entry.seed, entry.id),
-            ),
-            (
-                GaitError::new(entry.seed, entry.id),
-                Head::default(),
-                HeadIntent::default(),
-                Handling::new(entry.seed, entry.id),
-                KickIntent::default(),
-                Orders {
-                    state: if entry.told { RobotState::Playing } else { RobotState::Initial },
-                    place: None,
-                },
-            ),
-            (
-                Role(entry.role),
-                TeamPicture::new(entry.strategy),
-                Inbox::default(),
-                TcmClient::new(entry.id, entry.tcm.queue),
-                Tcm::new(entry.tcm, clock),
-                Activity::new(entry.strategy, entry.role, 0),
-                Memory::new(entry.strategy.slots),
-                model,
-                Percepts::default(),
-                Eyesight::new(entry.sensing.clone(), entry.seed, entry.id),
-                Odometry::new(entry.seed, entry.id),
-            ),
-            rigid_body(
-                unit_collider(kind),
-                kind.body.mass,
-                kind.body.friction,
-                kind.body.restitution,
-                entry.pose,
-            ),
-        ))
-        .id();
+    let state = if entry.told { RobotState::Playing } else { RobotState::Initial };
+    let body = (
+        Name::new(format!("robot {}", entry.id)),
+        MatchEntity,
+        entry.id,
+        robot,
+        entry.pose,
+        Twist::default(),
+        DriveCommand::idle(&entry.kind),
+        GaitError::new(entry.seed, entry.id),
+        Head::default(),
+        Handling::new(entry.seed, entry.id),
+        Orders { state, place: None },
+    );
+    let wants = (
+        SteeringIntent::default(),
+        Contributions::default(),
+        MotorDice::new(entry.seed, entry.id),
+        HeadIntent::default(),
+        KickIntent::default(),
+    );
+    let mind = (
+        Role(entry.role),
+        TeamPicture::new(entry.strategy),
+        Inbox::default(),
+        TcmClient::new(entry.id, entry.tcm.queue),
+        Tcm::new(entry.tcm, clock),
+        Activity::new(entry.strategy, entry.role, 0),
+        Memory::new(entry.strategy.slots),
+        model,
+        Percepts::default(),
+        Eyesight::new(entry.sensing.clone(), entry.seed, entry.id),
+        Odometry::new(entry.seed, entry.id),
+    );
+    (body, wants, mind)
+}
+
+/// The parts of a robot's mind that only some strategies need.
+fn add_protocols(world: &mut World, robot: Entity, entry: &Entry, clock: &Clock) {
+    if let Some(swapping) = Swapping::new(entry.strategy, entry.id, entry.seed) {
+        world.entity_mut(robot).insert(swapping);
+    }
+    if let Some(booking) = Booking::new(entry.strategy, entry.id, clock) {
+        world.entity_mut(robot).insert(booking);
+    }
+}
+
+/// Spawns a robot without a body.
+pub(super) fn spawn_mind(
+    world: &mut World,
+    plan: &MatchPlan,
+    id: RobotId,
+    seed: Seed,
+    clock: &Clock,
+) -> Entity {
+    let entry = Entry::of(plan, id, seed);
+    let robot = world.spawn(parts(&entry, clock)).id();
+    add_protocols(world, robot, &entry, clock);
+    robot
+}
+
+/// Spawns a robot and its trailer; returns both.
+fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Option<Entity>) {
+    let kind = &entry.kind;
+    let body = &kind.body;
+    let rigid = rigid_body(unit_collider(kind), body.mass, body.friction, body.restitution, entry.pose);
+    let unit = world.spawn((parts(entry, clock), rigid)).id();
     register_bodies(world);
     let trailer = kind.trailer.as_ref().and_then(|trailer| {
         let outline = Collider::convex_hull(&trailer.outline)?;

@@ -5,6 +5,7 @@ mod kick;
 
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
+use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 pub use chin::{Grip, NearBall};
@@ -28,7 +29,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// What a robot wants to do to the ball besides walking into it; written by the Motor stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Reflect)]
 pub enum KickIntent {
     #[default]
     Nothing,

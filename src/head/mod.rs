@@ -2,6 +2,7 @@
 //! Drive stage.
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
 use crate::geometry::{angle, wrap_angle};
@@ -16,7 +17,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// Where a head should look, rad to the left of the body's heading; written by the Motor stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeadIntent {
     pub pan: f32,
     /// How fast it should turn there, rad/s.

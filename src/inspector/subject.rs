@@ -11,15 +11,17 @@ use crate::ball::Ball;
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Twist};
+use crate::handling::Handling;
+use crate::head::Head;
 use crate::ids::RobotId;
 use crate::motor::{Contributions, SteeringIntent};
 use crate::pilot::Pilot;
 use crate::pitch::Pitch;
-use crate::referee::MatchState;
+use crate::referee::{MatchState, Orders};
 use crate::robot::{DriveCommand, OffPitch, Robot};
 use crate::sense::{Eyesight, Odometry, Percepts};
 use crate::strategy::{Assemblage, State, Strategies, Strategy};
-use crate::teamwork::Role;
+use crate::teamwork::{Booking, Role, TeamPicture};
 use crate::view::state::Selected;
 use crate::world_model::WorldModel;
 
@@ -39,6 +41,11 @@ pub struct Subject {
     pub contributions: &'static Contributions,
     pub intent: &'static SteeringIntent,
     pub command: &'static DriveCommand,
+    pub head: &'static Head,
+    pub handling: &'static Handling,
+    pub orders: &'static Orders,
+    pub picture: &'static TeamPicture,
+    pub booking: Option<&'static Booking>,
     pub piloted: Has<Pilot>,
     pub off_pitch: Has<OffPitch>,
 }

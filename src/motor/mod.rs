@@ -10,6 +10,7 @@ mod tests;
 
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use evaluate::evaluate;
 use ready::walk_to_place;
@@ -34,7 +35,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// Where a robot wants to go. Headings are in the odometry's frame, so that the drive can follow them between decisions.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum SteeringIntent {
     #[default]
     Stop,

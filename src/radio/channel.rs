@@ -30,6 +30,14 @@ pub struct Fate {
     pub lost: Option<Loss>,
 }
 
+impl Fate {
+    /// It arrives in this tick.
+    pub fn on_time(due: u64) -> Fate {
+        let arrival = Arrival { due, late: false, duplicate: false };
+        Fate { copies: SmallVec::from_iter([arrival]), lost: None }
+    }
+}
+
 /// The arrival of a packet or of a duplicate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrival {

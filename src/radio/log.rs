@@ -71,11 +71,11 @@ impl RadioLog {
         id
     }
 
-    pub(super) fn arrived(&mut self, id: u64, tick: u64) {
+    pub(crate) fn arrived(&mut self, id: u64, tick: u64) {
         self.settle(id, Outcome::Arrived(tick));
     }
 
-    pub(super) fn lost(&mut self, id: u64, loss: Loss) {
+    pub(crate) fn lost(&mut self, id: u64, loss: Loss) {
         self.settle(id, Outcome::Lost(loss));
     }
 
@@ -88,7 +88,7 @@ impl RadioLog {
         }
     }
 
-    pub(super) fn forget(&mut self, clock: &Clock) {
+    pub(crate) fn forget(&mut self, clock: &Clock) {
         let kept = clock.ticks(KEPT);
         while self.entries.front().is_some_and(|entry| entry.sent + kept < clock.tick) {
             self.entries.pop_front();

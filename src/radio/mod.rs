@@ -36,9 +36,14 @@ use crate::schedule::{Tick, TickSystems};
 use crate::tcm::{Datagram, Incoming, OnAir, TcmSystems, as_robot};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, deliver_datagrams.in_set(TickSystems::Deliver).before(TcmSystems::Receive))
-        .add_systems(Tick, transmit_datagrams.in_set(TickSystems::Transmit).after(TcmSystems::Send));
+    let receives = deliver_datagrams.in_set(TickSystems::Deliver).before(TcmSystems::Receive);
+    let sends = transmit_datagrams.in_set(TickSystems::Transmit).after(TcmSystems::Send);
+    app.add_systems(Tick, (receives.in_set(RadioSystems), sends.in_set(RadioSystems)));
 }
+
+/// The simulated radio, which stands by where datagrams cross a real network.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct RadioSystems;
 
 /// On a message in flight: all that the radio knows of it.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,7 +110,7 @@ impl Air<'_> {
     }
 }
 
-fn deliver_datagrams(
+pub(crate) fn deliver_datagrams(
     clock: Res<Clock>,
     mut commands: Commands,
     (mut traffic, mut counts, mut log): (ResMut<Traffic>, ResMut<MessageCounts>, ResMut<RadioLog>),
@@ -131,7 +136,7 @@ fn deliver_datagrams(
     }
 }
 
-fn transmit_datagrams(
+pub(crate) fn transmit_datagrams(
     clock: Res<Clock>,
     mut on_air: ResMut<OnAir>,
     mut air: Air,

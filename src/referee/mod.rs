@@ -18,10 +18,11 @@ pub use orders::{Orders, RobotState};
 pub use rulebook::{
     BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,
 };
-pub use rules::{Laws, Observation, RULES, Rule, referee};
+pub use rules::{Laws, Observation, RULES, Rule, follow, referee};
 pub use state::{MatchState, Phase, Removal};
 
 use crate::clock::Clock;
+use crate::gamecontroller::BoxNews;
 use crate::physics::Bodies;
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
@@ -54,6 +55,7 @@ pub(crate) fn judge(
     (bodies, simulation): (Bodies, Single<&RapierContextSimulation>),
     ball: Single<SeenBall>,
     players: Players,
+    news: Option<Res<BoxNews>>,
 ) {
     calls.0.clear();
     if !state.refereed {
@@ -66,7 +68,15 @@ pub(crate) fn judge(
     } else {
         Scene::of_places(ball_pose.position, &players)
     };
-    referee(&laws, &scene.observation(), f64::from(clock.dt), &mut state, &mut calls.0);
+    let (seen, dt) = (scene.observation(), f64::from(clock.dt));
+    match news {
+        None => referee(&laws, &seen, dt, &mut state, &mut calls.0),
+        Some(news) => {
+            if let Some(view) = &news.view {
+                follow(view, &laws, &seen, dt, &mut state, &mut calls.0);
+            }
+        }
+    }
     whistles.note(clock.tick, &calls.0);
 }
 

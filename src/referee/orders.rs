@@ -27,7 +27,7 @@ pub enum RobotState {
 }
 
 /// What a robot was told last; written by the Referee stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Orders {
     pub state: RobotState,
     /// Where it should stand at the kick-off, in its team frame; nothing if people put it there.

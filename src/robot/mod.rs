@@ -25,6 +25,8 @@ use crate::ids::RobotId;
 pub struct Robot {
     pub kind: Arc<RobotKind>,
     pub condition: Condition,
+    /// Its decisions are made in another process.
+    pub remote: bool,
     /// Ticks between two decisions.
     decision_ticks: u64,
 }
@@ -32,11 +34,16 @@ pub struct Robot {
 impl Robot {
     pub fn new(kind: Arc<RobotKind>, clock: &Clock) -> Robot {
         let decision_ticks = clock.ticks(1.0 / kind.control_hz);
-        Robot { kind, condition: Condition::default(), decision_ticks }
+        Robot { kind, condition: Condition::default(), remote: false, decision_ticks }
     }
 
-    /// Whether the robot's control system decides in this tick.
+    /// Whether the robot's control system decides in this tick, and here.
     pub fn decides(&self, clock: &Clock) -> bool {
+        !self.remote && self.senses(clock)
+    }
+
+    /// Whether its sensors are read in this tick.
+    pub fn senses(&self, clock: &Clock) -> bool {
         !self.condition.crashed && self.is_due(clock.tick)
     }
 

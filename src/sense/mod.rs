@@ -13,6 +13,7 @@ use std::f32::consts::PI;
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 pub use camera::range_deviation;
 use camera::{Blob, look};
@@ -42,7 +43,7 @@ pub struct Percepts {
 }
 
 /// One camera frame, worked out: egocentric sightings, and where the robot was by its own localisation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
     /// The tick in which the shutter opened.
     pub taken: u64,
@@ -152,7 +153,7 @@ fn take_frames(
         let eyesight = &mut *eyesight;
         let team_pose = state.attacking(id.team).turn_pose(pose);
         match &eyesight.sensing.eyes {
-            Eyes::Perfect if robot.decides(&clock) => {
+            Eyes::Perfect if robot.senses(&clock) => {
                 let scene = scene.get_or_insert_with(|| Scene::of(*ball, &bodies, &trailers));
                 eyesight.under_way.push_back(scene.seen_perfectly(id, pose, team_pose, clock.tick));
             }
@@ -256,7 +257,7 @@ fn read_odometry(clock: Res<Clock>, mut robots: Query<Moved, Without<OffPitch>>)
         let mut turn = twist.angular * clock.dt;
         odometry.unjudged += way.length();
         if let Eyes::Real { odometry: noise, .. } = &eyesight.sensing.eyes
-            && robot.decides(&clock)
+            && robot.senses(&clock)
         {
             let distance = std::mem::take(&mut odometry.unjudged);
             let (more, more_turn) = odometry_error(noise, distance, &mut odometry.dice);

@@ -114,6 +114,9 @@ impl Tcm {
     }
 }
 
+/// The match itself, which tells robots in other processes what they sense. Nobody's broadcasts reach it.
+pub const HOST: Party = Party::Computer(255);
+
 /// The entity of the TCM that a robot is.
 pub fn party(robot: RobotId) -> Party {
     Party::Robot { team: robot.team as u8, number: robot.number }
@@ -219,7 +222,7 @@ impl Directory {
     /// Whom a message reaches: who is meant, and every computer if it is for a team, so that tools can follow.
     fn receivers(&self, to: Party, from: Party) -> impl Iterator<Item = Party> {
         let listens = move |party: Party| match to {
-            Party::Team(_) => matches!(party, Party::Computer(_)),
+            Party::Team(_) => matches!(party, Party::Computer(_)) && party != HOST,
             _ => false,
         };
         let known = self.entries().map(|(party, _)| party);

@@ -8,6 +8,7 @@ use bevy_egui::{EguiContext, EguiContexts, EguiInput, EguiPreUpdateSet, PrimaryE
 
 use super::FrameSystems;
 use super::dialogues::Open;
+use super::pilot_seat::Seat;
 use super::state::{Overlay, Overlays, Pace, Screen};
 
 pub(super) fn plugin(app: &mut App) {
@@ -53,8 +54,8 @@ const fn bind(keys: &'static str, does: &'static str, action: Action) -> Binding
 }
 
 /// All keys but those that drive.
-pub const BINDINGS: [Binding; 19] = [
-    bind("Space", "Pause, or play on", Action::PlayOrPause),
+pub const BINDINGS: [Binding; 20] = [
+    bind("Space or P", "Pause, or play on", Action::PlayOrPause),
     bind(".", "One tick", Action::OneTick),
     bind("+", "Faster", Action::Faster),
     bind("-", "Slower", Action::Slower),
@@ -69,7 +70,12 @@ pub const BINDINGS: [Binding; 19] = [
     bind("4", "Danger zone and homebase", Action::Switch(Overlay::Zones)),
     bind("5", "Roles and activities", Action::Switch(Overlay::Labels)),
     bind("6", "Teamwork: claims, supports, locks and messages", Action::Switch(Overlay::Teamwork)),
-    bind("M", "The radio: messages, counters, interference", Action::Switch(Overlay::Radio)),
+    bind("M", "The radio: messages, bookings, counters, interference", Action::Switch(Overlay::Radio)),
+    bind(
+        "N",
+        "Team communication: modules, queues, fragments, the referee box",
+        Action::Switch(Overlay::Communication),
+    ),
     bind("F1 or ?", "These keys", Action::Help),
     bind("Escape", "Close what is open, or leave the match", Action::Escape),
     bind("Escape", "Back to the menu", Action::Leave),
@@ -92,6 +98,7 @@ impl Action {
             Key::F1 => once(Action::Help),
             Key::Escape => once(Action::Escape),
             Key::Character(typed) => match typed.to_lowercase().as_str() {
+                "p" => once(Action::PlayOrPause),
                 "." => Some((Action::OneTick, true)),
                 "+" | "=" => Some((Action::Faster, true)),
                 "-" => Some((Action::Slower, true)),
@@ -106,6 +113,7 @@ impl Action {
                 "5" => once(Action::Switch(Overlay::Labels)),
                 "6" => once(Action::Switch(Overlay::Teamwork)),
                 "m" => once(Action::Switch(Overlay::Radio)),
+                "n" => once(Action::Switch(Overlay::Communication)),
                 _ => None,
             },
             _ => None,
@@ -125,7 +133,7 @@ fn keep_tab_from_widgets(mut contexts: Query<(&mut EguiContext, &mut EguiInput),
 fn read_keys(
     mut contexts: EguiContexts,
     held: Res<ButtonInput<KeyCode>>,
-    open: Res<Open>,
+    (open, seat): (Res<Open>, Seat),
     mut typed: MessageReader<KeyboardInput>,
     mut actions: MessageWriter<Action>,
 ) -> Result {
@@ -134,6 +142,10 @@ fn read_keys(
     let shift = held.any_pressed([ShiftLeft, ShiftRight]);
     let chord = held.any_pressed([ControlLeft, ControlRight, AltLeft, SuperLeft, SuperRight]);
     for key in typed.read().filter(|key| key.state == ButtonState::Pressed && !elsewhere && !chord) {
+        if key.logical_key == Key::Space && seat.kicks() {
+            // It kicks, and P pauses.
+            continue;
+        }
         let Some((action, repeats)) = Action::of(&key.logical_key, shift) else { continue };
         let answers = matches!(action, Action::Escape | Action::Help);
         if (repeats || !key.repeat) && (answers || open.question.is_none()) {
@@ -153,10 +165,7 @@ fn change_pace(mut actions: MessageReader<Action>, mut pace: ResMut<Pace>, mut o
             }
             Action::Faster => pace.faster(),
             Action::Slower => pace.slower(),
-            Action::Switch(overlay) => {
-                let switch = overlays.switch(overlay);
-                *switch = !*switch;
-            }
+            Action::Switch(overlay) => overlays.toggle(overlay),
             _ => {}
         }
     }
@@ -185,7 +194,7 @@ mod tests {
 
     #[test]
     fn a_tooltip_names_its_key() {
-        assert_eq!(Action::PlayOrPause.tooltip(), "Pause, or play on (Space)");
+        assert_eq!(Action::PlayOrPause.tooltip(), "Pause, or play on (Space or P)");
         assert_eq!(Action::Switch(Overlay::Beliefs).tooltip(), "Sensed and believed (3)");
         assert!(BINDINGS.iter().all(|binding| binding.action.tooltip().contains(binding.keys)));
     }

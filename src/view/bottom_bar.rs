@@ -8,6 +8,7 @@ use super::actions::Action;
 use super::calls::{Events, played};
 use super::colours::{self, egui as paint};
 use super::layout::{FreeArea, PanelSystems};
+use super::pilot_seat::Seat;
 use super::state::{Overlay, Overlays, Pace, Piloted, Screen, Selected};
 use super::style::panel_frame;
 use super::time_line::show_time_line;
@@ -25,7 +26,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// The overlays as they are called on their buttons.
-const OVERLAYS: [(Overlay, &str); 7] = [
+const OVERLAYS: [(Overlay, &str); 8] = [
     (Overlay::Vectors, "1 Vectors"),
     (Overlay::FieldOfView, "2 View"),
     (Overlay::Beliefs, "3 Beliefs"),
@@ -33,6 +34,7 @@ const OVERLAYS: [(Overlay, &str); 7] = [
     (Overlay::Labels, "5 Labels"),
     (Overlay::Teamwork, "6 Teamwork"),
     (Overlay::Radio, "M Radio"),
+    (Overlay::Communication, "N Comms"),
 ];
 
 /// A speed as people write it.
@@ -87,11 +89,10 @@ fn show_bottom_bar(
                 button(ui, "? Keys", 60.0, Action::Help);
                 ui.separator();
                 for (overlay, name) in OVERLAYS.into_iter().rev() {
-                    let on = overlays.bypass_change_detection().switch(overlay);
+                    let on = *overlays.bypass_change_detection().switch(overlay);
                     let tooltip = Action::Switch(overlay).tooltip();
-                    if ui.selectable_label(*on, name).on_hover_text(tooltip).clicked() {
-                        *on = !*on;
-                        overlays.set_changed();
+                    if ui.selectable_label(on, name).on_hover_text(tooltip).clicked() {
+                        overlays.toggle(overlay);
                     }
                 }
             });
@@ -108,19 +109,20 @@ fn show_first_minute(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
     time: Res<Time<Real>>,
-    piloted: Res<Piloted>,
+    seat: Seat,
     mut told: Local<f32>,
 ) -> Result {
-    let Some(seat) = piloted.0.filter(|_| *told < FIRST_MINUTE) else { return Ok(()) };
+    let Some(robot) = seat.id().filter(|_| *told < FIRST_MINUTE) else { return Ok(()) };
     *told += time.delta_secs();
     let panel = egui::Panel::bottom("first minute")
         .resizable(false)
         .frame(panel_frame(colours::RAISED, egui::Margin::symmetric(12, 5)));
     area.dock(contexts.ctx_mut()?, "first minute", panel, |ui| {
         ui.vertical_centered(|ui| {
+            let legs = if seat.kicks() { ", Q E to the side; Space kicks, C holds the ball" } else { "" };
             let text = format!(
-                "You drive {}, the one in the white ring: W A S D or the arrow keys. Tab: next robot. H: hand it back. F1: all keys.",
-                robot_text(seat)
+                "You drive {}, the one in the white ring: W A S D or the arrow keys{legs}. Tab: next robot. H: hand it back. F1: all keys.",
+                robot_text(robot)
             );
             ui.label(egui::RichText::new(text).color(paint(colours::PILOT)).size(15.0));
         });

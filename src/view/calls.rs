@@ -72,11 +72,14 @@ fn weight(decision: &Decision) -> u8 {
     match decision {
         Decision::MatchFinished { .. } => 5,
         Decision::Goal { .. } => 4,
-        Decision::HalfEnded { .. } => 3,
-        Decision::RobotRemoved { .. } | Decision::RobotReturned { .. } => 2,
+        Decision::HalfEnded { .. } | Decision::NoGoal { .. } => 3,
+        Decision::RobotRemoved { .. } | Decision::RobotReturned { .. } | Decision::Untouched { .. } => 2,
         Decision::BallPlaced { reason: PlacementReason::NoProgress, .. } => 2,
         Decision::RobotsPlaced { .. } => 1,
-        Decision::BallPlaced { reason: PlacementReason::KickOff, .. } | Decision::PhaseChanged(_) => 0,
+        Decision::BallPlaced { reason: PlacementReason::ThrowIn { .. }, .. } => 1,
+        Decision::BallPlaced { reason: PlacementReason::KickOff, .. }
+        | Decision::PhaseChanged(_)
+        | Decision::RobotPlaced { .. } => 0,
     }
 }
 

@@ -11,12 +11,13 @@ use bevy_egui::egui;
 use super::FrameSystems;
 use super::actions::Action;
 use super::layout::FreeArea;
-use super::pitch::WALL;
+use super::pitch::{WALL, is_open};
+use super::robots::extent;
 use super::selection::Pointer;
 use super::session::MatchBegun;
 use crate::geometry::{Pose, Zone};
 use crate::pitch::Pitch;
-use crate::robot::OffPitch;
+use crate::robot::{OffPitch, Robot};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Sight>()
@@ -55,8 +56,10 @@ impl Default for Sight {
 
 /// Floor that is shown around the walls, m.
 const MARGIN: f32 = 0.15;
-/// Room for robots that wait beside the pitch, m.
-const BENCH: f32 = 0.75;
+/// Carpet that is shown beyond the lines and the goals of an open pitch, m.
+const CARPET: Vec2 = Vec2::new(0.1, 0.35);
+/// Room around robots that wait beside the pitch, m.
+const BENCH: f32 = 0.05;
 /// The largest scale, points to a metre.
 const NEAREST: f32 = 900.0;
 /// The smallest scale, as a share of that which fits.
@@ -94,10 +97,18 @@ impl Sight {
 }
 
 /// What a fit shows: pitch, goals and walls, and whoever waits beside them.
-fn zone_to_show(pitch: &Pitch, waiting: impl Iterator<Item = Vec2>) -> Zone {
-    let edge = pitch.half_size() + Vec2::new(pitch.goal.depth, 0.0) + WALL + MARGIN;
+///
+/// Those who wait come with the room that each needs around it, m.
+fn zone_to_show(pitch: &Pitch, waiting: impl Iterator<Item = (Vec2, f32)>) -> Zone {
+    let goals = Vec2::new(pitch.goal.depth, 0.0);
+    let beyond = if is_open(pitch) {
+        (goals + Vec2::new(pitch.walls.thickness, 0.0) + CARPET).min(Vec2::splat(pitch.margin()))
+    } else {
+        goals + WALL + MARGIN
+    };
+    let edge = pitch.half_size() + beyond;
     let zone = Zone { min: -edge, max: edge };
-    waiting.fold(zone, |zone, at| Zone { min: zone.min.min(at - BENCH), max: zone.max.max(at + BENCH) })
+    waiting.fold(zone, |zone, (at, room)| Zone { min: zone.min.min(at - room), max: zone.max.max(at + room) })
 }
 
 fn set_up_camera(mut commands: Commands, adapter: Option<Res<RenderAdapterInfo>>) {
@@ -131,7 +142,7 @@ fn zoom(
 
 fn pan(pointer: Res<Pointer>, pitch: Res<Pitch>, mut sight: ResMut<Sight>) {
     let Some(moved) = pointer.dragged else { return };
-    let edge = pitch.half_size() + 1.0;
+    let edge = pitch.half_size() + pitch.margin() + 1.0;
     let centre = sight.centre - Vec2::new(moved.x, -moved.y) / sight.scale;
     sight.centre = centre.clamp(-edge, edge);
     sight.fitted = false;
@@ -141,7 +152,7 @@ fn approach_fit(
     time: Res<Time>,
     (area, pitch): (Res<FreeArea>, Res<Pitch>),
     mut sight: ResMut<Sight>,
-    waiting: Query<&Pose, With<OffPitch>>,
+    waiting: Query<(&Pose, &Robot), With<OffPitch>>,
 ) {
     if !area.0.is_positive() {
         return;
@@ -150,7 +161,8 @@ fn approach_fit(
     if !sight.fitted {
         return;
     }
-    let goal = sight.fit(zone_to_show(&pitch, waiting.iter().map(|pose| pose.position)));
+    let waiting = waiting.iter().map(|(pose, robot)| (pose.position, extent(&robot.kind) + BENCH));
+    let goal = sight.fit(zone_to_show(&pitch, waiting));
     let share = if sight.settled { 1.0 - bevy::math::ops::exp(-APPROACH * time.delta_secs()) } else { 1.0 };
     let settled = true;
     *sight = Sight {

@@ -15,11 +15,15 @@ pub const FLOOR: Color = rgb(0x36_3D_3A);
 pub const CARPET: Color = rgb(0x2E_7D_46);
 /// Every second mowing stripe.
 pub const STRIPE: Color = rgb(0x33_86_4C);
+/// The fence around a pitch whose lines are painted on the carpet.
+pub const FENCE: Color = rgb(0x6E_76_72);
 /// Lines, walls and penalty spots.
 pub const CHALK: Color = rgb(0xF1_F1_EA);
 pub const WEST_GOAL: Color = rgb(0x2F_6F_DE);
 pub const EAST_GOAL: Color = rgb(0xF2_C2_30);
 pub const ROBOT: Color = rgb(0x1B_1D_22);
+/// The head of a robot that has a neck: pale, so that one sees where it looks.
+pub const HEAD: Color = rgb(0xC9_D0_D6);
 /// The line around a robot's parts.
 pub const ROBOT_EDGE: Color = rgb(0x5A_61_6B);
 pub const BALL: Color = rgb(0xFF_8A_1F);

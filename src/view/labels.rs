@@ -12,7 +12,8 @@ use super::camera::Sight;
 use super::colours::{self, egui as paint};
 use super::layout::{FreeArea, PanelSystems};
 use super::nudge::{Choice, Placed};
-use super::robots::Plate;
+use super::rings::SELECTED;
+use super::robots::{Plate, reach};
 use super::shown::Shown;
 use super::signs::{self, Sign};
 use super::state::{Overlays, Screen, Selected};
@@ -28,7 +29,7 @@ use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::{Role, Swapping};
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Kept>().add_systems(
+    app.init_resource::<Kept>().init_resource::<Placed>().add_systems(
         EguiPrimaryContextPass,
         write_on_pitch.in_set(PanelSystems::Pitch).run_if(in_state(Screen::Match)),
     );
@@ -37,18 +38,17 @@ pub(super) fn plugin(app: &mut App) {
 /// Places of labels, kept from frame to frame so that they do not hop about.
 #[derive(Resource, Clone, Debug, Default)]
 struct Kept {
-    placed: Placed,
     choices: BTreeMap<RobotId, Choice>,
 }
 
 /// Activities are shown for all robots from this scale on, points to a metre.
 const NEAR: f32 = 150.0;
-/// Reach of a robot around the middle of its outline, m.
-const REACH: f32 = 0.36;
-/// Reach of the rings around one, m.
-const RING_REACH: f32 = 0.52;
-/// Height of a number on its plate, m.
-const NUMBER: f32 = 0.19;
+/// Reach of the rings around a robot, in its own reaches.
+const RINGS: f32 = SELECTED + 0.08;
+/// Share of a robot's reach around the middle of each of its bodies that labels keep off.
+const BODY: f32 = 0.6;
+/// Height of a number, as a share of its plate's.
+const NUMBER: f32 = 0.8;
 const LARGEST_NUMBER: f32 = 34.0;
 
 #[derive(QueryData)]
@@ -102,7 +102,7 @@ fn write_on_pitch(
     mut contexts: EguiContexts,
     (area, sight, overlays, selected): (Res<FreeArea>, Res<Sight>, Res<Overlays>, Res<Selected>),
     (state, strategies, conditions): (Res<MatchState>, Res<Strategies>, Res<Conditions>),
-    mut kept: ResMut<Kept>,
+    (mut kept, mut placed): (ResMut<Kept>, ResMut<Placed>),
     shown: Query<(&Shown, Option<&Plate>)>,
     robots: Query<Labelled>,
     ball: Query<&Ball>,
@@ -110,22 +110,27 @@ fn write_on_pitch(
     let ctx = contexts.ctx_mut()?;
     let layer = egui::LayerId::new(egui::Order::Background, egui::Id::new("text on the pitch"));
     let painter = ctx.layer_painter(layer).with_clip_rect(area.0);
-    let kept = &mut *kept;
-    kept.placed.clear();
-    for (shown, _) in &shown {
-        let reach = ball.get(shown.body).map_or(0.6 * REACH, |ball| ball.kind.radius) * sight.scale;
+    placed.clear();
+    for (shown, plate) in &shown {
+        let reach = match (ball.get(shown.body), plate, robots.get(shown.body)) {
+            (Ok(ball), ..) => ball.kind.radius,
+            (_, Some(plate), _) => BODY * plate.reach,
+            (.., Ok(robot)) => BODY * reach(&robot.robot.kind),
+            _ => continue,
+        };
+        let reach = reach * sight.scale;
         let body = egui::Rect::from_center_size(
             sight.to_screen(shown.pose.position),
             egui::Vec2::splat(2.0 * reach),
         );
-        kept.placed.add_body(body);
+        placed.add_body(body);
     }
-    let size = (NUMBER * sight.scale).clamp(SMALL, LARGEST_NUMBER).round();
     let mut labelled: Vec<_> = shown.iter().filter_map(|(drawn, plate)| Some((*drawn, *plate?))).collect();
     labelled.sort_unstable_by_key(|(_, plate)| (selected.0 != Some(plate.of), plate.of));
     for (drawn, plate) in labelled {
         let at = sight.to_screen(drawn.pose.to_field(plate.middle));
         let number = plate.of.number.to_string();
+        let size = (2.0 * NUMBER * plate.half * sight.scale).clamp(SMALL, LARGEST_NUMBER).round();
         painter.text(at, egui::Align2::CENTER_CENTER, number, font(size), paint(colours::ROBOT));
         let unit = shown.iter().find(|(shown, _)| shown.robot == Some(plate.of)).map(|(unit, _)| unit);
         let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else {
@@ -135,7 +140,7 @@ fn write_on_pitch(
         let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
         let cut_off = conditions.cut_off.contains(robot.id);
         let signs = Sign::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
-        let corner = middle + egui::vec2(0.8, -0.8) * REACH * sight.scale;
+        let corner = middle + egui::vec2(0.8, -0.8) * plate.reach * sight.scale;
         for (place, sign) in signs.iter().enumerate() {
             sign.paint(&painter, corner + egui::vec2((2.0 * signs::RADIUS + 2.0) * place as f32, 0.0));
         }
@@ -148,8 +153,8 @@ fn write_on_pitch(
         let galley = lay_out(&painter, &lines);
         let choice = kept.choices.entry(plate.of).or_default();
         let room = galley.size() + 2.0 * PADDING;
-        let reach = if is_selected { RING_REACH } else { REACH };
-        let (rect, taken) = kept.placed.place(middle, reach * sight.scale + 4.0, room, *choice);
+        let reach = if is_selected || robot.piloted { RINGS * plate.reach } else { plate.reach };
+        let (rect, taken) = placed.place(middle, reach * sight.scale + 4.0, room, *choice);
         *choice = taken;
         painter.rect_filled(rect, 4.0, egui::Color32::from_black_alpha(150));
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
@@ -158,9 +163,10 @@ fn write_on_pitch(
 }
 
 /// Room around a label's text, in points.
-const PADDING: egui::Vec2 = egui::vec2(5.0, 1.0);
+pub const PADDING: egui::Vec2 = egui::vec2(5.0, 1.0);
 
-fn lay_out(painter: &egui::Painter, lines: &[(String, Color)]) -> Arc<egui::Galley> {
+/// Lines of text with their colours, centred under each other.
+pub fn lay_out(painter: &egui::Painter, lines: &[(String, Color)]) -> Arc<egui::Galley> {
     let mut job = egui::text::LayoutJob { halign: egui::Align::Center, ..default() };
     for (number, (line, colour)) in lines.iter().enumerate() {
         let format = egui::TextFormat { font_id: font(SMALL), color: paint(*colour), ..default() };

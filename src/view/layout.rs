@@ -16,6 +16,7 @@ pub(super) fn plugin(app: &mut App) {
                 PanelSystems::Low,
                 PanelSystems::Side,
                 PanelSystems::Pitch,
+                PanelSystems::Notes,
                 PanelSystems::Floating,
             )
                 .chain(),
@@ -38,6 +39,8 @@ pub enum PanelSystems {
     Side,
     /// Text on the pitch, in the area that is free now.
     Pitch,
+    /// Text on the pitch that finds its place among what is there.
+    Notes,
     /// Dialogues and floating windows.
     Floating,
 }

@@ -8,7 +8,7 @@ mod actions;
 mod ball;
 mod bottom_bar;
 mod calls;
-mod camera;
+pub mod camera;
 pub mod colours;
 mod custom;
 mod dialogues;
@@ -16,20 +16,21 @@ mod display;
 pub mod driver;
 mod expectations;
 mod help;
-mod labels;
+pub mod labels;
 pub mod layout;
+pub mod levers;
 mod menu;
 mod menu_art;
-mod nudge;
+pub mod nudge;
 mod pilot_seat;
 mod pitch;
 mod reload;
 mod rings;
-mod robots;
+pub mod robots;
 mod scenario_box;
 mod scenario_list;
 mod selection;
-mod session;
+pub mod session;
 mod shapes;
 pub mod shown;
 mod signs;
@@ -37,6 +38,7 @@ pub mod state;
 mod style;
 mod time_line;
 mod top_bar;
+pub mod walkers;
 
 use std::process::ExitCode;
 
@@ -117,5 +119,5 @@ fn played(app: &mut App) {
                 .run_if(in_state(state::Screen::Match)),
         )
         .add_plugins((session::plugin, driver::plugin, expectations::plugin, shown::plugin, calls::plugin))
-        .add_plugins((pitch::plugin, robots::plugin, ball::plugin, rings::plugin));
+        .add_plugins((pitch::plugin, robots::plugin, walkers::plugin, ball::plugin, rings::plugin));
 }

@@ -1,10 +1,11 @@
 //! Keeps text on the pitch apart: a label goes beside its robot where there is room, and stays there while there is.
 
+use bevy::prelude::Resource;
 use bevy_egui::egui;
 use egui::{Pos2, Rect, Vec2, vec2};
 
-/// What has been placed in this frame.
-#[derive(Clone, Debug, Default)]
+/// What has been placed in this frame; whoever writes on the pitch asks it for room.
+#[derive(Resource, Clone, Debug, Default)]
 pub struct Placed {
     /// Never covered.
     labels: Vec<Rect>,

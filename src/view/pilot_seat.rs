@@ -1,33 +1,80 @@
-//! A person's hands: the keys that drive become requests, and a robot is taken over or handed back.
+//! A person's hands: the keys that drive and the levers of the inspector become requests, and a robot is taken over or handed
+//! back.
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::EguiContexts;
 
 use super::FrameSystems;
 use super::actions::Action;
 use super::dialogues::Open;
+use super::levers::{Levers, Pull, aimed};
 use super::state::{Piloted, Selected};
+use crate::clock::Clock;
+use crate::handling::Handling;
 use crate::ids::RobotId;
 use crate::pilot::Pilot;
+use crate::robot::{Kick, Robot};
 use crate::script::{Request, Requests};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Update, (change_seat, steer).chain().in_set(FrameSystems::Input));
+    app.init_resource::<Levers>()
+        .add_systems(Update, (change_seat, steer).chain().in_set(FrameSystems::Input));
 }
 
 /// What the driving keys are called.
-pub const DRIVING_KEYS: [(&str, &str); 2] =
-    [("W S or Up Down", "Drive ahead or back"), ("A D or Left Right", "Turn left or right")];
+pub const DRIVING_KEYS: [(&str, &str); 6] = [
+    ("W S or Up Down", "Drive ahead or back"),
+    ("A D or Left Right", "Turn left or right"),
+    ("Q E", "Step to the left or right (on four legs)"),
+    ("Space", "Kick ahead, while you drive a robot that kicks"),
+    ("Z X", "Kick to the left or right (the same)"),
+    ("C, held", "Hold the ball under the chin (the same)"),
+];
 
-/// What the controls say while these keys are down.
-fn controls(down: impl Fn([KeyCode; 2]) -> bool) -> Pilot {
-    use KeyCode::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, KeyA, KeyD, KeyS, KeyW};
-    let lever = |plus, minus| f32::from(u8::from(down(plus))) - f32::from(u8::from(down(minus)));
-    Pilot {
-        throttle: lever([KeyW, ArrowUp], [KeyS, ArrowDown]),
-        turn: lever([KeyA, ArrowLeft], [KeyD, ArrowRight]),
+/// The robot under a person's hands.
+#[derive(SystemParam)]
+pub struct Seat<'w, 's> {
+    piloted: Res<'w, Piloted>,
+    robots: Query<'w, 's, (&'static RobotId, &'static Robot, &'static Handling)>,
+}
+
+impl Seat<'_, '_> {
+    pub fn id(&self) -> Option<RobotId> {
+        self.piloted.0
+    }
+
+    fn robot(&self) -> Option<(&Robot, &Handling)> {
+        let found = self.robots.iter().find(|(id, ..)| Some(**id) == self.piloted.0);
+        found.map(|(_, robot, handling)| (robot, handling))
+    }
+
+    /// Whether it is one that kicks.
+    pub fn kicks(&self) -> bool {
+        self.robot().is_some_and(|(robot, _)| !robot.kind.kicks.is_empty())
+    }
+
+    /// The kick that goes nearest to a direction, degrees to the left of straight ahead.
+    fn kick_to(&self, direction: f32) -> Option<usize> {
+        let (robot, handling) = self.robot()?;
+        let kicks: Vec<Kick> = robot.kind.kicks.values().copied().collect();
+        aimed(&kicks, direction, handling.holds())
     }
 }
+
+/// What the keys that are down say.
+fn pull(down: impl Fn([KeyCode; 2]) -> bool) -> Pull {
+    use KeyCode::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, KeyA, KeyC, KeyD, KeyE, KeyQ, KeyS, KeyW};
+    let lever = |plus, minus| f32::from(u8::from(down(plus))) - f32::from(u8::from(down(minus)));
+    Pull {
+        walk: Vec2::new(lever([KeyW, ArrowUp], [KeyS, ArrowDown]), lever([KeyQ; 2], [KeyE; 2])),
+        turn: lever([KeyA, ArrowLeft], [KeyD, ArrowRight]),
+        hold: down([KeyC; 2]),
+    }
+}
+
+/// The keys that kick, and where to, degrees to the left of straight ahead.
+const KICKS: [(KeyCode, f32); 3] = [(KeyCode::Space, 0.0), (KeyCode::KeyZ, 75.0), (KeyCode::KeyX, -75.0)];
 
 fn change_seat(
     mut actions: MessageReader<Action>,
@@ -50,13 +97,27 @@ fn change_seat(
 fn steer(
     mut contexts: EguiContexts,
     held: Res<ButtonInput<KeyCode>>,
-    (piloted, open): (Res<Piloted>, Res<Open>),
-    mut requests: ResMut<Requests>,
+    (seat, open, clock): (Seat, Res<Open>, Res<Clock>),
+    (mut requests, mut levers): (ResMut<Requests>, ResMut<Levers>),
     mut last: Local<Option<(RobotId, Pilot)>>,
 ) -> Result {
     let elsewhere = contexts.ctx_mut()?.egui_wants_keyboard_input() || open.question.is_some();
-    let now = piloted.0.map(|robot| (robot, controls(|keys| !elsewhere && held.any_pressed(keys))));
-    if let Some((robot, pilot)) = now.filter(|now| piloted.is_changed() || Some(*now) != *last) {
+    let levers = levers.bypass_change_detection();
+    if last.map(|(robot, _)| robot) != seat.id() {
+        *levers = Levers::default();
+    }
+    for (key, direction) in KICKS {
+        if !elsewhere
+            && held.pressed(key)
+            && let Some(kick) = seat.kick_to(direction)
+        {
+            levers.kick(kick, &clock);
+        }
+    }
+    levers.let_kick_pass(&clock);
+    let keys = pull(|keys| !elsewhere && held.any_pressed(keys));
+    let now = seat.id().map(|robot| (robot, levers.with(keys)));
+    if let Some((robot, pilot)) = now.filter(|now| seat.piloted.is_changed() || Some(*now) != *last) {
         requests.ask(Request::Steer { robot, pilot });
     }
     *last = now;
@@ -67,19 +128,28 @@ fn steer(
 mod tests {
     use super::*;
 
-    fn pressed(keys: &[KeyCode]) -> Pilot {
-        controls(|wanted| wanted.iter().any(|key| keys.contains(key)))
+    fn pressed(keys: &[KeyCode]) -> Pull {
+        pull(|wanted| wanted.iter().any(|key| keys.contains(key)))
     }
 
     #[test]
     fn letters_and_arrows_drive_alike() {
-        assert_eq!(pressed(&[KeyCode::KeyW, KeyCode::KeyA]), Pilot { throttle: 1.0, turn: 1.0 });
-        assert_eq!(pressed(&[KeyCode::ArrowDown, KeyCode::ArrowRight]), Pilot { throttle: -1.0, turn: -1.0 });
+        let (left, right) =
+            (pressed(&[KeyCode::KeyW, KeyCode::KeyA]), pressed(&[KeyCode::ArrowDown, KeyCode::ArrowRight]));
+        assert_eq!((left.walk, left.turn), (Vec2::X, 1.0));
+        assert_eq!((right.walk, right.turn), (Vec2::NEG_X, -1.0));
     }
 
     #[test]
     fn opposite_keys_cancel() {
-        assert_eq!(pressed(&[KeyCode::KeyW, KeyCode::KeyS]), Pilot::default());
-        assert_eq!(pressed(&[]), Pilot::default());
+        assert_eq!(pressed(&[KeyCode::KeyW, KeyCode::KeyS]), Pull::default());
+        assert_eq!(pressed(&[KeyCode::KeyQ, KeyCode::KeyE]), Pull::default());
+        assert_eq!(pressed(&[]), Pull::default());
+    }
+
+    #[test]
+    fn q_steps_to_the_left_and_c_holds() {
+        let keys = pressed(&[KeyCode::KeyQ, KeyCode::KeyC]);
+        assert_eq!((keys.walk, keys.hold), (Vec2::Y, true));
     }
 }

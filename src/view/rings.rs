@@ -4,33 +4,55 @@ use bevy::prelude::*;
 
 use super::FrameSystems;
 use super::colours;
-use super::robots::Plate;
+use super::robots::{Plate, reach};
 use super::session::MatchBegun;
 use super::shapes::ring;
 use super::shown::{Drawn, Shown, height};
 use super::state::{Piloted, Selected};
 use crate::ids::{RobotId, Team};
+use crate::robot::Robot;
 
 pub(super) fn plugin(app: &mut App) {
     app.add_observer(draw_rings).add_systems(Update, place_rings.in_set(FrameSystems::Picture));
 }
 
-/// What a ring tells of the robot in it.
+/// What a ring tells of the robot in it. Each team has its own, since its robots may have their own size.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 enum Ring {
     Selected(Team),
-    Piloted,
+    Piloted(Team),
 }
+
+/// Radii of the rings around a robot that is selected and one that a person drives, in reaches of the robot, and their
+/// widths, m.
+pub const SELECTED: f32 = 1.36;
+const PILOTED: f32 = 1.22;
+const WIDTHS: [f32; 2] = [0.035, 0.05];
+
+/// The reach of a robot whose rings are as wide as they may be, m.
+const LARGE: f32 = 0.36;
 
 fn draw_rings(
     _: On<MatchBegun>,
     mut commands: Commands,
     mut meshes: ResMut<Assets<Mesh>>,
     mut materials: ResMut<Assets<ColorMaterial>>,
+    robots: Query<(&RobotId, &Robot)>,
 ) {
-    let selected = Team::BOTH.map(|team| (Ring::Selected(team), colours::team(team), 0.5, 0.035));
+    let reach_of = |team: Team| {
+        let mates = robots.iter().filter(|(id, _)| id.team == team);
+        mates.map(|(_, robot)| reach(&robot.kind)).fold(0.0, f32::max)
+    };
+    let rings = Team::BOTH.map(|team| {
+        let reach = reach_of(team);
+        let thin = (reach / LARGE).min(1.0);
+        [
+            (Ring::Selected(team), colours::team(team), SELECTED * reach, WIDTHS[0] * thin),
+            (Ring::Piloted(team), colours::PILOT, PILOTED * reach, WIDTHS[1] * thin),
+        ]
+    });
     for (tells, colour, radius, width) in
-        selected.into_iter().chain([(Ring::Piloted, colours::PILOT, 0.45, 0.05)])
+        rings.into_iter().flatten().filter(|(_, _, radius, _)| *radius > 0.0)
     {
         commands.spawn((
             Drawn,
@@ -47,7 +69,7 @@ impl Ring {
     fn robot(self, selected: &Selected, piloted: &Piloted) -> Option<RobotId> {
         match self {
             Ring::Selected(team) => selected.0.filter(|robot| robot.team == team),
-            Ring::Piloted => piloted.0,
+            Ring::Piloted(team) => piloted.0.filter(|robot| robot.team == team),
         }
     }
 }

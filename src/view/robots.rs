@@ -1,5 +1,5 @@
 //! Robots as they are drawn: the true outlines of drive unit, jaws and trailer in black, a chevron for the heading and a
-//! plate for the number in the team's colour.
+//! plate for the number in the team's colour. Robots on four legs are drawn in [`walkers`](super::walkers).
 
 use bevy::prelude::*;
 
@@ -7,9 +7,10 @@ use super::colours;
 use super::session::MatchBegun;
 use super::shapes::{box_at, frame, inset, paint, polygon};
 use super::shown::{Drawn, Fade, Shown, height};
+use super::walkers::{Gaze, draw_flash, draw_walker};
 use crate::geometry::Pose;
 use crate::ids::RobotId;
-use crate::robot::{Robot, RobotKind, Trailer, jaws};
+use crate::robot::{Drive, Robot, RobotKind, Trailer, jaws};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_observer(draw_robots);
@@ -21,20 +22,45 @@ pub struct Plate {
     pub of: RobotId,
     /// Its middle in the body's frame, m.
     pub middle: Vec2,
+    /// Half its size, m.
+    pub half: f32,
+    /// The robot's [`reach`], m.
+    pub reach: f32,
 }
 
 /// Width of the line around a part, m.
 const EDGE: f32 = 0.012;
 /// Half the size of a plate, as a share of how far its trailer reaches back: beyond the drive unit in any position.
 const PLATE_SHARE: f32 = 0.27;
+/// The same for a plate on the body, as a share of the body's length, and its middle behind the body's.
+const ON_BODY: (f32, f32) = (0.22, 0.2);
 /// Room between two robots' heights, so that no two parts are at the same one.
 const STEP: f32 = 0.1;
 
 /// The materials of one robot; its own, so that it can fade.
-struct Paint {
-    body: Handle<ColorMaterial>,
-    edge: Handle<ColorMaterial>,
-    team: Handle<ColorMaterial>,
+pub(super) struct Paint {
+    pub body: Handle<ColorMaterial>,
+    pub edge: Handle<ColorMaterial>,
+    pub team: Handle<ColorMaterial>,
+    pub head: Handle<ColorMaterial>,
+}
+
+/// How far a robot reaches back from its drive unit's centre, m.
+fn back(kind: &RobotKind) -> f32 {
+    let half = kind.body.length / 2.0;
+    let trailer = kind.trailer.iter().flat_map(|trailer| &trailer.outline);
+    trailer.map(|corner| -corner.x).fold(half, f32::max)
+}
+
+/// The radius that holds a robot, standing straight, around the middle of its outline, m.
+pub fn reach(kind: &RobotKind) -> f32 {
+    let front = kind.body.length / 2.0 + kind.scoop.map_or(0.0, |scoop| scoop.depth);
+    Vec2::new((front + back(kind)) / 2.0, kind.body.width / 2.0).length()
+}
+
+/// The room that a robot may need around its drive unit's centre, m.
+pub fn extent(kind: &RobotKind) -> f32 {
+    kind.reach() + if kind.trailer.is_some() { back(kind) } else { 0.0 }
 }
 
 fn draw_robots(
@@ -52,16 +78,30 @@ fn draw_robots(
             body: mix(colours::ROBOT),
             edge: mix(colours::ROBOT_EDGE),
             team: mix(colours::team(id.team)),
+            head: mix(colours::HEAD),
         };
-        let handles = [&paint.body, &paint.edge, &paint.team].map(|handle| (handle.clone(), 1.0));
+        let handles =
+            [&paint.body, &paint.edge, &paint.team, &paint.head].map(|handle| (handle.clone(), 1.0));
+        let reach = reach(&robot.kind);
         let mut unit = commands.spawn((Shown::new(entity, Some(*id), *pose, level), Fade::of(handles)));
-        unit.with_children(|parent| draw_unit(parent, &mut meshes, &paint, &robot.kind));
+        match robot.kind.drive {
+            Drive::Differential(_) => {
+                unit.with_children(|parent| draw_unit(parent, &mut meshes, &paint, &robot.kind));
+            }
+            Drive::Walker(_) => {
+                unit.insert(Gaze::default());
+                unit.with_children(|parent| {
+                    draw_walker(parent, &mut meshes, &paint, &robot.kind, level);
+                    draw_flash(parent, &mut meshes, &mut materials, &robot.kind);
+                });
+            }
+        }
         let pulled = trailers.iter().find(|(_, trailer, _)| trailer.of == *id);
         match (pulled, &robot.kind.trailer) {
             (Some((entity, trailer, pose)), Some(kind)) => {
                 let back = kind.outline.iter().map(|corner| -corner.x).fold(trailer.radius, f32::max);
                 let half = PLATE_SHARE * back;
-                let plate = Plate { of: *id, middle: Vec2::X * (half + EDGE - back) };
+                let plate = Plate { of: *id, middle: Vec2::X * (half + EDGE - back), half, reach };
                 let mut drawn = commands.spawn((Shown::new(entity, None, *pose, level - STEP / 2.0), plate));
                 drawn.with_children(|parent| {
                     part(parent, &mut meshes, &paint, &kind.outline);
@@ -69,16 +109,16 @@ fn draw_robots(
                 });
             }
             _ => {
-                let middle = Vec2::X * (-0.25 * robot.kind.body.length);
-                unit.insert(Plate { of: *id, middle });
-                let half = 0.2 * robot.kind.body.length;
+                let length = robot.kind.body.length;
+                let (half, middle) = (ON_BODY.0 * length, Vec2::X * (-ON_BODY.1 * length));
+                unit.insert(Plate { of: *id, middle, half, reach });
                 unit.with_children(|parent| draw_plate(parent, &mut meshes, &paint, middle, half));
             }
         }
     }
 }
 
-type Parent<'a> = bevy::ecs::hierarchy::ChildSpawnerCommands<'a>;
+pub(super) type Parent<'a> = bevy::ecs::hierarchy::ChildSpawnerCommands<'a>;
 
 fn draw_unit(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, kind: &RobotKind) {
     let half = Vec2::new(kind.body.length, kind.body.width) / 2.0;
@@ -100,7 +140,7 @@ fn chevron(reach: Vec2, thick: f32) -> [[Vec2; 4]; 2] {
     })
 }
 
-fn part(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, outline: &[Vec2]) {
+pub(super) fn part(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, outline: &[Vec2]) {
     fill(parent, meshes, &paint.body, polygon(&inset(outline, EDGE / 2.0)), 0.0);
     fill(parent, meshes, &paint.edge, frame(outline, EDGE), 0.01);
 }
@@ -109,7 +149,7 @@ fn draw_plate(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, mid
     fill(parent, meshes, &paint.team, polygon(&box_at(middle, Vec2::splat(half))), STEP / 2.0 + 0.03);
 }
 
-fn fill(
+pub(super) fn fill(
     parent: &mut Parent,
     meshes: &mut Assets<Mesh>,
     material: &Handle<ColorMaterial>,

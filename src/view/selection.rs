@@ -7,9 +7,11 @@ use super::FrameSystems;
 use super::actions::Action;
 use super::camera::Sight;
 use super::layout::FreeArea;
+use super::robots::reach;
 use super::shown::Shown;
 use super::state::{Piloted, Selected};
 use crate::ids::RobotId;
+use crate::robot::Robot;
 use crate::script::{Request, Requests};
 
 pub(super) fn plugin(app: &mut App) {
@@ -34,8 +36,8 @@ pub struct Pointer {
 
 /// A press that moves less than this is a click, in points.
 const CLICK: f32 = 4.0;
-/// A click this near to a robot means it, m.
-const NEAR: f32 = 0.4;
+/// A click this near to a robot means it, in points; robots that are larger are hit where they are.
+const NEAR: f32 = 24.0;
 
 impl Pointer {
     fn step(&mut self, at: Option<egui::Pos2>, over_pitch: bool, pressed: bool, held: bool) {
@@ -80,14 +82,18 @@ fn select_by_click(
     pointer: Res<Pointer>,
     sight: Res<Sight>,
     shown: Query<&Shown>,
+    robots: Query<&Robot>,
     mut selected: ResMut<Selected>,
 ) {
     let Some(at) = pointer.clicked else { return };
     let point = sight.to_pitch(at);
-    let robots = shown.iter().filter_map(|shown| Some((shown.robot?, shown.pose)));
-    let nearest = robots
-        .map(|(id, pose)| (pose.position.distance(point), id))
-        .filter(|(distance, _)| *distance < NEAR)
+    let nearest = (shown.iter())
+        .filter_map(|shown| {
+            let reach = reach(&robots.get(shown.body).ok()?.kind).max(NEAR / sight.scale);
+            Some((shown.pose.position.distance(point), reach, shown.robot?))
+        })
+        .filter(|(distance, reach, _)| distance < reach)
+        .map(|(distance, _, id)| (distance, id))
         .min_by(|(a, _), (b, _)| a.total_cmp(b));
     selected.0 = nearest.map(|(_, id)| id);
 }

@@ -26,6 +26,24 @@ pub fn box_at(centre: Vec2, half: Vec2) -> [Vec2; 4] {
         .map(|corner| centre + corner * half)
 }
 
+/// The corners of a box with rounded corners, counter-clockwise.
+pub fn rounded_box_at(centre: Vec2, half: Vec2, radius: f32) -> Vec<Vec2> {
+    const STEPS: u32 = 5;
+    let radius = radius.min(half.x).min(half.y);
+    let inner = half - radius;
+    let quarter = TAU / 4.0;
+    [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)]
+        .into_iter()
+        .zip(0_u8..)
+        .flat_map(|(corner, turns)| {
+            (0..STEPS).map(move |step| {
+                let angle = quarter * (f32::from(turns) + step as f32 / (STEPS - 1) as f32);
+                centre + corner * inner + radius * unit(angle)
+            })
+        })
+        .collect()
+}
+
 /// A closed line of some width along the inside of a convex polygon, counter-clockwise or clockwise.
 pub fn frame(corners: &[Vec2], width: f32) -> Mesh {
     band(corners, &inset(corners, width), true)
@@ -100,6 +118,17 @@ fn mesh(points: impl IntoIterator<Item = Vec2>, indices: Vec<u32>) -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rounded_box_touches_its_sides_and_spares_its_corners() {
+        let corners = rounded_box_at(Vec2::X, Vec2::new(0.5, 0.3), 0.1);
+        let far = |side: Vec2| corners.iter().map(|corner| (*corner - Vec2::X).dot(side)).fold(0.0, f32::max);
+        assert!((far(Vec2::X) - 0.5).abs() < 1e-5 && (far(Vec2::NEG_Y) - 0.3).abs() < 1e-5);
+        assert!(far(Vec2::new(1.0, 1.0)) < 0.8 - 0.05);
+        let area: f32 =
+            (0..corners.len()).map(|i| corners[i].perp_dot(corners[(i + 1) % corners.len()])).sum();
+        assert!(area > 0.0, "counter-clockwise");
+    }
 
     #[test]
     fn a_box_is_inset_by_the_same_on_all_sides_however_it_is_wound() {

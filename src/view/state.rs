@@ -29,6 +29,8 @@ pub struct Overlays {
     pub teamwork: bool,
     /// The radio's panel.
     pub radio: bool,
+    /// The team communication's panel, in the radio's place.
+    pub communication: bool,
 }
 
 /// One of the [`Overlays`].
@@ -41,6 +43,7 @@ pub enum Overlay {
     Labels,
     Teamwork,
     Radio,
+    Communication,
 }
 
 impl Overlays {
@@ -54,7 +57,19 @@ impl Overlays {
             Overlay::Labels => &mut self.labels,
             Overlay::Teamwork => &mut self.teamwork,
             Overlay::Radio => &mut self.radio,
+            Overlay::Communication => &mut self.communication,
         }
+    }
+
+    /// Switches one of them on or off. Of the two panels below the pitch only one is open.
+    pub fn toggle(&mut self, overlay: Overlay) {
+        let on = !*self.switch(overlay);
+        match overlay {
+            Overlay::Radio => self.communication = false,
+            Overlay::Communication => self.radio = false,
+            _ => {}
+        }
+        *self.switch(overlay) = on;
     }
 }
 
@@ -68,6 +83,7 @@ impl Default for Overlays {
             labels: true,
             teamwork: true,
             radio: false,
+            communication: false,
         }
     }
 }
@@ -196,6 +212,16 @@ mod tests {
         assert_eq!(pace.factor(), 64.0);
         (0..20).for_each(|_| pace.slower());
         assert_eq!(pace.factor(), 0.125);
+    }
+
+    #[test]
+    fn one_panel_below_the_pitch_takes_the_place_of_the_other() {
+        let mut overlays = Overlays::default();
+        overlays.toggle(Overlay::Radio);
+        overlays.toggle(Overlay::Communication);
+        assert!(overlays.communication && !overlays.radio);
+        overlays.toggle(Overlay::Communication);
+        assert_eq!(overlays, Overlays::default());
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::tints`].
 
 mod beliefs;
+mod bookings;
 mod messages;
 mod sight;
 mod teamwork;
@@ -11,10 +12,14 @@ mod zones;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
+use bevy_egui::EguiPrimaryContextPass;
 
 use super::subject::Scene;
+use crate::geometry::Pose;
+use crate::view::layout::PanelSystems;
 use crate::view::shown::Shown;
 use crate::view::state::{Overlays, Screen};
+use crate::view::walkers::Gaze;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_gizmo_group::<Broad>()
@@ -23,10 +28,14 @@ pub(super) fn plugin(app: &mut App) {
         .add_systems(Startup, set_widths)
         .add_systems(
             PostUpdate,
-            (teamwork::draw, messages::draw, draw)
+            (teamwork::draw, bookings::draw, messages::draw, draw)
                 .chain()
                 .after(TransformSystems::Propagate)
                 .run_if(in_state(Screen::Match)),
+        )
+        .add_systems(
+            EguiPrimaryContextPass,
+            bookings::write.in_set(PanelSystems::Notes).run_if(in_state(Screen::Match)),
         );
 }
 
@@ -59,7 +68,7 @@ pub(super) struct Pens<'w, 's> {
 fn draw(
     overlays: Res<Overlays>,
     scene: Scene,
-    shown: Query<&Shown>,
+    (shown, gazes): (Query<&Shown>, Query<(&Shown, &Gaze)>),
     camera: Query<(&Camera, &GlobalTransform), With<Camera2d>>,
     mut pens: Pens,
 ) {
@@ -76,7 +85,10 @@ fn draw(
         return;
     }
     if overlays.field_of_view {
-        sight::draw_field_of_view(&mut pens, &robot.of.eyesight.sensing.eyes, anchor, pixel);
+        let pan =
+            gazes.iter().find(|(shown, _)| shown.body == robot.of.entity).map_or(0.0, |(_, gaze)| gaze.pan);
+        let from = Pose { heading: anchor.heading + pan, ..anchor };
+        sight::draw_field_of_view(&mut pens, &robot.of.eyesight.sensing.eyes, from, pixel);
     }
     if overlays.beliefs {
         beliefs::draw(&mut pens, &robot, pixel);

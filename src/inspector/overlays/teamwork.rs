@@ -15,12 +15,13 @@ use crate::robot::{OffPitch, Robot};
 use crate::strategy::Strategies;
 use crate::teamwork::{Swapping, TeamPicture};
 use crate::view::colours;
+use crate::view::robots::reach;
 use crate::view::shown::Shown;
 use crate::view::state::Overlays;
 
-/// Radii of the rings of a claim and of a lock, m.
-const CLAIM: f32 = 0.42;
-const LOCK: f32 = 0.47;
+/// Radii of the rings of a claim and of a lock, in reaches of the robot.
+const CLAIM: f32 = 1.14;
+const LOCK: f32 = 1.28;
 /// Dashes of a support, m.
 const DASH: f32 = 0.09;
 
@@ -66,11 +67,12 @@ pub(super) fn draw(
     for mate in mates.iter().filter(|mate| !mate.off_pitch) {
         let Some(at) = place_of(*mate.id) else { continue };
         let works = !mate.robot.condition.crashed;
+        let reach = reach(&mate.robot.kind);
         if works && mate.picture.has_ball {
-            pens.strong.circle_2d(at, CLAIM, colours::CLAIM).resolution(48);
+            pens.strong.circle_2d(at, CLAIM * reach, colours::CLAIM).resolution(48);
         }
         if mate.swapping.is_some_and(|swapping| swapping.machine.lock().is_some()) {
-            pens.strong.circle_2d(at, LOCK, colours::LOCK).resolution(48);
+            pens.strong.circle_2d(at, LOCK * reach, colours::LOCK).resolution(48);
         }
         let strategy = strategies.of(mate.id.team);
         let activity = strategy.machines.get(mate.activity.machine(strategy));
@@ -84,7 +86,7 @@ pub(super) fn draw(
             None => None,
         };
         if let Some(goal) = goal {
-            draw_support(&mut pens, at, goal, tints::lighter(mate.id.team));
+            draw_support(&mut pens, (at, goal), CLAIM * reach, tints::lighter(mate.id.team));
         }
     }
 }
@@ -93,10 +95,10 @@ fn own_goal(pitch: &Pitch, ends: Attacking) -> Vec2 {
     ends.turn(-pitch.goal_centre())
 }
 
-/// A dashed line with a tip at whom it serves.
-fn draw_support(pens: &mut Pens, from: Vec2, to: Vec2, tint: Color) {
+/// A dashed line with a tip at whom it serves, which keeps off both ends.
+fn draw_support(pens: &mut Pens, (from, to): (Vec2, Vec2), off: f32, tint: Color) {
     let way = (to - from).normalize_or_zero();
-    let (from, to) = (from + CLAIM * way, to - CLAIM * way);
+    let (from, to) = (from + off * way, to - off * way);
     if (to - from).dot(way) <= DASH {
         return;
     }
@@ -104,7 +106,7 @@ fn draw_support(pens: &mut Pens, from: Vec2, to: Vec2, tint: Color) {
         pens.strong.line_2d(a, b, tint);
     }
     for side in [1.0, -1.0] {
-        pens.strong.line_2d(to, to - 0.14 * way + side * 0.08 * way.perp(), tint);
+        pens.strong.line_2d(to, to + off * (side * 0.19 * way.perp() - 0.33 * way), tint);
     }
 }
 

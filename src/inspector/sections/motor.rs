@@ -158,7 +158,7 @@ fn intent(robot: &Looked) -> RichText {
         SteeringIntent::Spin(rate) => {
             format!("to turn on the spot, {}°/s {}", rate.abs().to_degrees().round(), side(rate))
         }
-        SteeringIntent::Steer { heading, speed } => {
+        SteeringIntent::Steer { heading, speed, .. } => {
             let turn = wrap_angle(heading - robot.of.odometry.pose.heading);
             let pace = format!(
                 "{} ({})",

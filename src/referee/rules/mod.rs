@@ -7,6 +7,7 @@
 mod by_hand;
 mod defenders;
 mod flow;
+mod following;
 mod goal;
 mod holding;
 mod illegal_defender;
@@ -32,6 +33,7 @@ mod walkthrough;
 pub(super) use four_legged_table::{four_legged_book, read_book};
 
 use bevy::prelude::Vec2;
+pub use following::follow;
 
 use super::decision::{Decision, RemovalReason};
 use super::rulebook::RuleBook;

@@ -42,7 +42,8 @@ pub(super) fn all(
     bring_back(&due, laws, observation, state, decisions);
 }
 
-fn bring_back(
+/// Lets these robots return, as far as there is room.
+pub(super) fn bring_back(
     due: &[RobotId],
     laws: &Laws,
     observation: &Observation,

@@ -1,0 +1,145 @@
+//! What a match and a robot that is a process of its own say to each other, as data of the TCM: sensors one way, commands
+//! the other.
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Pose;
+use crate::handling::KickIntent;
+use crate::head::HeadIntent;
+use crate::motor::SteeringIntent;
+use crate::referee::Orders;
+use crate::sense::Frame;
+use crate::tcm::{Data, DataType, Module, RegisterData};
+
+pub(super) fn plugin(app: &mut App) {
+    app.register_data::<Sensors>().register_data::<Command>();
+}
+
+/// What a robot senses, and what it was told by the referee; once a tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sensors {
+    /// The tick that is over.
+    pub tick: u64,
+    /// The newest camera frame.
+    pub frame: Option<Frame>,
+    pub odometry: Pose,
+    /// m/s
+    pub speed: f32,
+    /// rad/s
+    pub turn_rate: f32,
+    /// s
+    pub stalled_for: f32,
+    /// rad
+    pub pan: f32,
+    pub holds_ball: bool,
+    pub orders: Orders,
+}
+
+/// What a robot wants its motors to do, and how it sees things; its answer to [`Sensors`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Command {
+    /// The tick of the sensors that it answers.
+    pub tick: u64,
+    pub steering: SteeringIntent,
+    pub kick: KickIntent,
+    pub head: HeadIntent,
+    /// Index into the strategy's roles.
+    pub role: u8,
+    /// The role that it acts in, as an index.
+    pub acting_as: u8,
+    /// Index into the states of that role's machine.
+    pub state: u16,
+    /// Where it believes itself to be, in the team frame.
+    pub pose: Pose,
+    /// Where it believes the ball to be, m in the team frame.
+    pub ball: Option<Vec2>,
+    /// Datagrams to robots that it has sent so far, and those from robots that it has received.
+    pub datagrams: (u64, u64),
+}
+
+impl Command {
+    fn is_finite(&self) -> bool {
+        let steering = match self.steering {
+            SteeringIntent::Stop => true,
+            SteeringIntent::Steer { heading, facing, speed } => {
+                heading.is_finite() && facing.is_finite() && speed.is_finite()
+            }
+            SteeringIntent::Spin(rate) => rate.is_finite(),
+        };
+        steering
+            && self.head.pan.is_finite()
+            && self.head.speed.is_finite()
+            && self.pose.is_finite()
+            && self.ball.is_none_or(Vec2::is_finite)
+    }
+}
+
+impl Sensors {
+    fn is_finite(&self) -> bool {
+        let numbers = [self.speed, self.turn_rate, self.stalled_for, self.pan];
+        self.odometry.is_finite() && numbers.into_iter().all(f32::is_finite)
+    }
+}
+
+impl Data for Sensors {
+    const TYPE: DataType = DataType(16);
+    const MODULE: Module = Module::REMOTE_ROBOTS;
+    const NAME: &'static str = "sensors";
+
+    fn serialise(&self) -> Vec<u8> {
+        postcard::to_stdvec(self).unwrap_or_default()
+    }
+
+    fn unserialise(bytes: &[u8]) -> Option<Sensors> {
+        let (sensors, rest) = postcard::take_from_bytes::<Sensors>(bytes).ok()?;
+        (rest.is_empty() && sensors.is_finite()).then_some(sensors)
+    }
+}
+
+impl Data for Command {
+    const TYPE: DataType = DataType(17);
+    const MODULE: Module = Module::REMOTE_ROBOTS;
+    const NAME: &'static str = "command";
+
+    fn serialise(&self) -> Vec<u8> {
+        postcard::to_stdvec(self).unwrap_or_default()
+    }
+
+    fn unserialise(bytes: &[u8]) -> Option<Command> {
+        let (command, rest) = postcard::take_from_bytes::<Command>(bytes).ok()?;
+        (rest.is_empty() && command.is_finite()).then_some(command)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn command(speed: f32) -> Command {
+        Command {
+            tick: 9,
+            steering: SteeringIntent::Steer { heading: 0.5, facing: 0.4, speed },
+            kick: KickIntent::Hold,
+            head: HeadIntent::default(),
+            role: 1,
+            acting_as: 2,
+            state: 3,
+            pose: Pose::new(1.0, 2.0, 0.1),
+            ball: Some(Vec2::X),
+            datagrams: (7, 8),
+        }
+    }
+
+    #[test]
+    fn a_command_comes_back_as_it_was() {
+        let bytes = command(1.0).serialise();
+        assert_eq!(Command::unserialise(&bytes), Some(command(1.0)));
+        assert_eq!(Command::unserialise(&bytes[1..]), None);
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_no_command() {
+        assert_eq!(Command::unserialise(&command(f32::NAN).serialise()), None);
+    }
+}
