@@ -83,3 +83,50 @@ fn check_reads_all_assets() {
     assert!(text(&output.stdout).contains("all sound"));
     assert_eq!(touchline(&["check", "Cargo.toml"]).status.code(), Some(2));
 }
+
+#[test]
+fn a_robot_that_the_match_does_not_have_is_told_who_plays() {
+    let output = touchline(&["robot", "--team", "home", "--number", "9"]);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    for word in ["--number", "`home 9`", "home 0, home 1, home 2, home 3, away 0, away 1, away 2, away 3"] {
+        assert!(message.contains(word), "{message}");
+    }
+}
+
+#[test]
+fn an_address_that_is_none_is_named_with_its_option() {
+    for option in ["--gamecontroller", "--announce"] {
+        let output = touchline(&["run", option, "nonsense"]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("nonsense") && message.contains(option), "{message}");
+        assert!(output.stdout.is_empty(), "{option} printed {}", text(&output.stdout));
+    }
+}
+
+#[test]
+fn a_fault_in_the_addresses_is_named_with_its_line_and_field() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("addresses.ron");
+    let path = file.to_string_lossy();
+    let good = r#""home 0": "127.0.0.1:7400""#;
+    for (bad, words) in [
+        (r#""home 1": "127.0.0.1:0""#, [":3:", "home 1", "port other than 0"]),
+        (r#""home 1": "127.0.0.1:7400""#, [":3:", "home 1", "that of home 0"]),
+        (r#""home": "127.0.0.1:7401""#, [":3:", "home", "groups have no address"]),
+        (r#""home 1": "nowhere""#, [":3:", "home 1", "socket address"]),
+        (r#""nobody": "127.0.0.1:7401""#, [":3:", "nobody", "is nobody"]),
+    ] {
+        std::fs::write(&file, format!("{{\n    {good},\n    {bad},\n}}\n")).expect("the file is written");
+        let output = touchline(&["run", "--radio", "udp", "--addresses", &path]);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(message.starts_with(&*path), "{message}");
+        for word in words {
+            assert!(message.contains(word), "`{word}` is not in: {message}");
+        }
+    }
+}

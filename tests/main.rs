@@ -1,8 +1,10 @@
 //! Whole matches and bodies in motion: everything that needs more than one module. One binary, since each links Bevy.
 
 mod b3p;
+mod booking;
 mod command_line;
 mod corpus;
+mod network;
 mod play;
 mod policies;
 mod radio;

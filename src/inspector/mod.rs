@@ -3,6 +3,8 @@
 //! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: figures, matching, kinds of
 //! schemas, outlines.
 
+mod calibration;
+mod communication;
 mod figures;
 mod kinds;
 mod matching;
@@ -26,7 +28,14 @@ use crate::view::state::Screen;
 /// Adds the panel, the overlays and the view of the world to a window.
 pub fn plugin(app: &mut App) {
     app.init_resource::<Inspector>()
-        .add_plugins((panel::plugin, overlays::plugin, radio::plugin, weights::plugin, world_view::plugin))
+        .add_plugins((
+            panel::plugin,
+            overlays::plugin,
+            radio::plugin,
+            communication::plugin,
+            weights::plugin,
+            world_view::plugin,
+        ))
         .add_systems(
             Update,
             toggle.run_if(in_state(Screen::Match).and_then(not(egui_wants_any_keyboard_input))),

@@ -11,6 +11,8 @@ use super::subject::{Looked, Scene};
 use super::weights::Weights;
 use crate::script::Requests;
 use crate::view::layout::{FreeArea, PanelSystems};
+use crate::view::levers::Levers;
+use crate::view::session::Session;
 use crate::view::state::{Piloted, Screen};
 
 pub(super) fn plugin(app: &mut App) {
@@ -30,6 +32,8 @@ struct Changes<'w> {
     requests: ResMut<'w, Requests>,
     weights: ResMut<'w, Weights>,
     piloted: ResMut<'w, Piloted>,
+    levers: ResMut<'w, Levers>,
+    session: Res<'w, Session>,
 }
 
 fn dock(
@@ -68,6 +72,8 @@ fn fill(ui: &mut egui::Ui, robot: &Looked, changes: &mut Changes) {
         requests: &mut changes.requests,
         weights: &mut changes.weights,
         piloted: &mut changes.piloted,
+        levers: &mut changes.levers,
+        file: changes.session.plan.as_ref().map(|plan| plan.team(robot.id.team)),
         open: &mut changes.inspector.open,
     };
     sections::draw_head(ui, robot, &mut desk);

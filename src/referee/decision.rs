@@ -38,6 +38,8 @@ pub enum RemovalReason {
     LocalStuck,
     /// A referee's program outside of the simulation took it off.
     RefereeBox,
+    /// People or a scenario wanted it so.
+    Ordered,
 }
 
 /// Why a ball in the goal does not count.
@@ -137,6 +139,7 @@ impl fmt::Display for Decision {
                     RemovalReason::LeftTheField => "it left the field",
                     RemovalReason::LocalStuck => "the ball is stuck",
                     RemovalReason::RefereeBox => "the referee box took it off",
+                    RemovalReason::Ordered => "it was taken off by hand",
                 };
                 write!(f, "{} must leave: {reason}", Shirt(*robot))
             }

@@ -23,6 +23,7 @@ pub use state::{MatchState, Phase, Removal};
 
 use crate::clock::Clock;
 use crate::gamecontroller::BoxNews;
+use crate::ids::RobotId;
 use crate::physics::Bodies;
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
@@ -31,6 +32,7 @@ use witness::{Players, Scene, SeenBall};
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Whistles>()
         .init_resource::<Calls>()
+        .init_resource::<PenaltiesDue>()
         .add_systems(Tick, judge.in_set(TickSystems::Referee));
 }
 
@@ -47,10 +49,14 @@ const HEARD: usize = 64;
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Calls(pub Vec<Decision>);
 
+/// Robots that are to be taken off whatever they have done, since people or a scenario want it so.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct PenaltiesDue(pub Vec<RobotId>);
+
 pub(crate) fn judge(
     clock: Res<Clock>,
     (pitch, book): (Res<Pitch>, Res<RuleBook>),
-    mut state: ResMut<MatchState>,
+    (mut state, mut due): (ResMut<MatchState>, ResMut<PenaltiesDue>),
     (mut calls, mut whistles): (ResMut<Calls>, ResMut<Whistles>),
     (bodies, simulation): (Bodies, Single<&RapierContextSimulation>),
     ball: Single<SeenBall>,
@@ -58,7 +64,13 @@ pub(crate) fn judge(
     news: Option<Res<BoxNews>>,
 ) {
     calls.0.clear();
+    for robot in due.0.drain(..) {
+        if state.remove(robot, f64::INFINITY) {
+            calls.0.push(Decision::RobotRemoved { robot, reason: RemovalReason::Ordered });
+        }
+    }
     if !state.refereed {
+        whistles.note(clock.tick, &calls.0);
         return;
     }
     let (ball, ball_pose, ball_body) = *ball;

@@ -95,6 +95,22 @@ pub enum Condition {
         #[serde(default)]
         by: Option<RobotId>,
     },
+    /// The robot has booked the ball and goes for it.
+    Goes(RobotId),
+    /// How many robots of the team go for the ball that they have booked.
+    Going {
+        team: Team,
+        #[serde(default)]
+        at_least: Option<u32>,
+        #[serde(default)]
+        at_most: Option<u32>,
+    },
+    /// Every team mate that is switched on, or only the one named, believes that the robot has booked the ball.
+    Booker {
+        robot: RobotId,
+        #[serde(default)]
+        seen_by: Option<RobotId>,
+    },
     /// Metres between the centres of two things.
     Distance {
         from: Thing,

@@ -28,6 +28,8 @@ pub enum Event {
     Deaf(RobotId),
     /// Nothing that the robot sends leaves it.
     Mute(RobotId),
+    /// The referee takes the robot off for the rest of the scenario.
+    Penalise(RobotId),
     /// Ends a crash, a freeze, deafness and muteness.
     Revive {
         robot: RobotId,

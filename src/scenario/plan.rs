@@ -175,6 +175,7 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
         Event::Freeze(robot) => afflict(*robot, Ailment::Frozen),
         Event::Deaf(robot) => afflict(*robot, Ailment::Deaf),
         Event::Mute(robot) => afflict(*robot, Ailment::Mute),
+        Event::Penalise(robot) => Request::Robot(*robot, Treatment::Penalise),
         Event::Revive { robot, memory } => Request::Robot(*robot, Treatment::Revive(*memory)),
         Event::CutOff(robot) => Request::Air(Weather::CutOff(*robot)),
         Event::Reconnect(robot) => Request::Air(Weather::Reconnect(*robot)),

@@ -22,7 +22,7 @@ use crate::radio::MessageCounts;
 use crate::referee::MatchState;
 use crate::robot::Robot;
 use crate::strategy::{Strategies, Strategy};
-use crate::teamwork::{Role, Swapping, TeamPicture};
+use crate::teamwork::{Booking, Role, Standing, Swapping, TeamPicture};
 
 impl ScenarioPlan {
     /// Plays the scenario with each of its seeds.
@@ -66,6 +66,7 @@ type Seen<'a> = (
     &'a Activity,
     &'a TeamPicture,
     Option<&'a Swapping>,
+    Option<&'a Booking>,
 );
 
 /// Shows a judge the tick that is just over.
@@ -90,16 +91,7 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
 }
 
 fn robot_scene<'a>(
-    (id, robot, pose, twist, role, activity, picture, swapping): (
-        &RobotId,
-        &Robot,
-        &Pose,
-        &Twist,
-        &Role,
-        &Activity,
-        &TeamPicture,
-        Option<&Swapping>,
-    ),
+    (id, robot, pose, twist, role, activity, picture, swapping, booking): Seen,
     strategy: &'a Strategy,
 ) -> RobotScene<'a> {
     let configuration = swapping.and_then(|swapping| swapping.machine.configuration());
@@ -113,6 +105,12 @@ fn robot_scene<'a>(
         activity: &strategy.state(activity.machine(strategy), activity.state).name,
         claims: picture.has_ball,
         holder: if picture.has_ball { Some(id.number) } else { picture.carrier.map(|(number, _)| number) },
+        goes: booking.is_some_and(|booking| booking.0.goes()),
+        booker: match picture.booking {
+            Standing::Own => Some(id.number),
+            Standing::Mate(number) => Some(number),
+            Standing::Free => None,
+        },
         locked_by: swapping.and_then(|swapping| swapping.machine.lock()).map(|lock| lock.by),
         configuration: configuration.map(fingerprint),
     }

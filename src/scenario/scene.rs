@@ -44,6 +44,10 @@ pub struct RobotScene<'a> {
     pub claims: bool,
     /// The number of the robot of its team that, as it believes, holds the ball.
     pub holder: Option<u8>,
+    /// Whether it has booked the ball and goes for it.
+    pub goes: bool,
+    /// The number of the robot of its team that, as it believes, has booked the ball.
+    pub booker: Option<u8>,
     /// The number of the team mate to which it has given its lock.
     pub locked_by: Option<u8>,
     /// Equal for equal configurations of the hardened role swap.
@@ -58,6 +62,11 @@ impl Scene<'_> {
     /// The robots of a team that are switched on.
     pub fn switched_on(&self, team: Team) -> impl Iterator<Item = &RobotScene<'_>> {
         self.robots.iter().filter(move |robot| robot.on && robot.id.team == team)
+    }
+
+    /// How many robots of a team go for the ball.
+    pub fn going(&self, team: Team) -> u32 {
+        self.switched_on(team).filter(|robot| robot.goes).count() as u32
     }
 
     /// m in the pitch frame; `None` for a robot that does not take part.

@@ -93,6 +93,8 @@ impl Default for Stage {
             activity: "search",
             claims: false,
             holder: None,
+            goes: false,
+            booker: None,
             locked_by: None,
             configuration: None,
         });

@@ -115,6 +115,15 @@ fn holds(condition: &Condition, scene: &Scene) -> bool {
             let mut eyes = eyes(scene, *robot, *seen_by).peekable();
             eyes.peek().is_some() && eyes.all(|it| it.holder == Some(robot.number))
         }
+        Condition::Goes(robot) => of(robot, &|it| it.on && it.goes),
+        Condition::Going { team, at_least, at_most } => {
+            let going = scene.going(*team);
+            at_least.is_none_or(|least| going >= least) && at_most.is_none_or(|most| going <= most)
+        }
+        Condition::Booker { robot, seen_by } => {
+            let mut eyes = eyes(scene, *robot, *seen_by).peekable();
+            eyes.peek().is_some() && eyes.all(|it| it.booker == Some(robot.number))
+        }
         Condition::Locked { robot, by } => {
             of(robot, &|it| it.locked_by.is_some_and(|locked_by| by.is_none_or(|by| by.number == locked_by)))
         }
@@ -175,6 +184,22 @@ fn fact(condition: &Condition, held: bool, scene: &Scene) -> String {
                     format!("{} took {} for the holder", it.id, RobotId::new(robot.team, holder))
                 }
                 None => format!("{} knew no holder", it.id),
+            });
+            list(&mut beliefs, ", ").non_empty_or("no team mate was switched on")
+        }
+        Condition::Goes(robot) => {
+            of(robot, &|it| if it.goes { "went for the ball" } else { "did not go for the ball" }.into())
+        }
+        Condition::Going { team, .. } => {
+            let going = scene.switched_on(*team).filter(|it| it.goes).map(|it| it.id.to_string());
+            list(going, " and ").non_empty_or("nobody") + " went for the ball"
+        }
+        Condition::Booker { robot, seen_by } => {
+            let mut beliefs = eyes(scene, *robot, *seen_by).map(|it| match it.booker {
+                Some(booker) => {
+                    format!("{} took {} for the booker", it.id, RobotId::new(robot.team, booker))
+                }
+                None => format!("{} knew no booker", it.id),
             });
             list(&mut beliefs, ", ").non_empty_or("no team mate was switched on")
         }

@@ -90,6 +90,16 @@ impl Display for Condition {
             Condition::Holder { robot, seen_by: Some(by) } => {
                 write!(f, "{robot} holds the ball in the eyes of {by}")
             }
+            Condition::Goes(robot) => write!(f, "{robot} goes for the ball"),
+            Condition::Going { team, at_least, at_most } => {
+                write!(f, "{} of {team} go for the ball", limits("at least", *at_least, "at most", *at_most, ""))
+            }
+            Condition::Booker { robot, seen_by: None } => {
+                write!(f, "{robot} has booked the ball in the eyes of its team")
+            }
+            Condition::Booker { robot, seen_by: Some(by) } => {
+                write!(f, "{robot} has booked the ball in the eyes of {by}")
+            }
             Condition::Locked { robot, by: None } => write!(f, "{robot} is locked"),
             Condition::Locked { robot, by: Some(by) } => write!(f, "{robot} is locked by {by}"),
             Condition::Distance { from, to, below, above } => {
@@ -163,6 +173,7 @@ impl Display for Event {
             Event::Freeze(robot) => write!(f, "{robot} freezes"),
             Event::Deaf(robot) => write!(f, "{robot} goes deaf"),
             Event::Mute(robot) => write!(f, "{robot} goes mute"),
+            Event::Penalise(robot) => write!(f, "{robot} is penalised"),
             Event::Revive { robot, memory: Recall::Kept } => write!(f, "{robot} comes back"),
             Event::Revive { robot, memory: Recall::Lost } => write!(f, "{robot} comes back afresh"),
             Event::CutOff(robot) => write!(f, "{robot} is cut off"),

@@ -17,6 +17,7 @@ use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::perception::Memory;
 use crate::pilot::Pilot;
+use crate::referee::PenaltiesDue;
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::Role;
@@ -31,7 +32,8 @@ pub(super) fn plugin(app: &mut App) {
         bodies::shove_bodies,
         forget_requests,
     );
-    app.init_resource::<Requests>()
+    app.init_resource::<PenaltiesDue>()
+        .init_resource::<Requests>()
         .init_resource::<Script>()
         .add_systems(Tick, in_order.chain().in_set(TickSystems::Script));
 }

@@ -50,6 +50,8 @@ pub enum Treatment {
     Afflict(Ailment),
     /// All its ailments end; a robot that had crashed is switched on again.
     Revive(Recall),
+    /// The referee takes it off until the end of the match.
+    Penalise,
     /// It decides that roles should be swapped.
     Swap(Reassignment),
     /// Its body and its senses have other values from now on; its size and the rate of its decisions stay.

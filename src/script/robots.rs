@@ -11,6 +11,7 @@ use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::motor::SteeringIntent;
 use crate::perception::Memory;
+use crate::referee::PenaltiesDue;
 use crate::robot::{Ailment, Condition, Recall, Robot, RobotKind};
 use crate::sense::{Eyesight, Percepts};
 use crate::strategy::{Strategies, Strategy};
@@ -41,6 +42,7 @@ pub(super) fn treat_robots(
     clock: Res<Clock>,
     requests: Res<Requests>,
     strategies: Res<Strategies>,
+    mut penalties: ResMut<PenaltiesDue>,
     mut robots: Query<Patient>,
 ) {
     for request in requests.iter() {
@@ -56,6 +58,7 @@ pub(super) fn treat_robots(
                     robot.switch_on(*recall, strategy, clock.tick);
                 }
             }
+            Treatment::Penalise => penalties.0.push(*robot.id),
             Treatment::Recalibrate(calibration) => robot.recalibrate(calibration),
             Treatment::Swap(reassignment) => {
                 if let Some(swapping) = &mut robot.swapping {

@@ -165,6 +165,8 @@ pub struct BallBooking {
     pub timeout: f32,
     /// Between two announcements of a robot that keeps its booking.
     pub renewal: f32,
+    /// A ball that a robot has not seen for so long is none that it may book, although it still believes in it.
+    pub sight: f32,
 }
 
 impl Default for BallBooking {
@@ -174,6 +176,7 @@ impl Default for BallBooking {
             threshold: 0.3,
             timeout: 0.8,
             renewal: 0.2,
+            sight: 0.5,
         }
     }
 }

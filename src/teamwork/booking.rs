@@ -73,7 +73,7 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
                 robot.booking.0.step(clock.tick, Input::Hear { from: received.from, book });
             }
         }
-        let input = robot.turn(strategy);
+        let input = robot.turn(strategy, &clock);
         if let Some(book) = robot.booking.0.step(clock.tick, input) {
             robot.client.broadcast(&Book(book));
         }
@@ -82,13 +82,15 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
 }
 
 impl BidderItem<'_, '_> {
-    /// A robot books the ball that it knows of, if that is where its role may go.
-    fn turn(&self, strategy: &Strategy) -> Input {
+    /// A robot books the ball that it sees, if that is where its role may go.
+    fn turn(&self, strategy: &Strategy, clock: &Clock) -> Input {
         if self.off_pitch {
             return Input::Withdraw;
         }
+        let sight = strategy.teamwork.ball_booking.map_or(0, |spec| clock.ticks(spec.sight));
+        let in_sight = self.model.ball.filter(|ball| clock.tick.saturating_sub(ball.seen) <= sight);
         let zone = self.activity.danger_zone(strategy);
-        let ball = self.model.ball.map(|ball| ball.position).filter(|at| zone.contains(*at));
+        let ball = in_sight.map(|ball| ball.position).filter(|at| zone.contains(*at));
         let distance = ball.map(|at| Distance::from_metres(at.distance(self.model.pose.position)));
         Input::Turn { distance }
     }

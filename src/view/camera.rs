@@ -208,6 +208,29 @@ mod tests {
     }
 
     #[test]
+    fn an_open_pitch_shows_some_of_its_carpet_and_whoever_waits_beyond() {
+        let goal = crate::pitch::Goal { width: 0.8, depth: 0.3 };
+        let walls = crate::pitch::Walls { thickness: 0.05, friction: 0.2, restitution: 0.6, margin: 1.0 };
+        let mut pitch = Pitch {
+            name: "Test".into(),
+            length: 5.4,
+            width: 4.0,
+            goal,
+            penalty_area: crate::pitch::PenaltyArea { depth: 0.65, width: 1.3 },
+            centre_circle_radius: 0.18,
+            penalty_spots: vec![Vec2::ZERO],
+            walls,
+        };
+        let open = zone_to_show(&pitch, std::iter::empty());
+        assert!(open.max.x > 2.7 + 0.3 + 0.05 && open.max.y > 2.0 + 0.2 && open.max.y < 3.0);
+        let waiting = Vec2::new(1.0, 3.6);
+        assert!(zone_to_show(&pitch, std::iter::once((waiting, 0.3))).max.y > 3.8);
+        pitch.walls.margin = 0.0;
+        let closed = zone_to_show(&pitch, std::iter::empty());
+        assert!((closed.max.y - (2.0 + WALL + MARGIN)).abs() < 1e-6);
+    }
+
+    #[test]
     fn the_window_and_the_pitch_agree_both_ways() {
         let sight = sight().fit(zone());
         let point = Vec2::new(1.5, -2.25);

@@ -100,6 +100,28 @@ mod tests {
     }
 
     #[test]
+    fn four_legged_robots_are_drawn_and_watched_without_a_change() {
+        let choice = Choice {
+            file: Some("four_legged_2005".into()),
+            seed: 5,
+            half_minutes: Some(0.05),
+            ..Choice::default()
+        };
+        let plan = MatchPlan::read(&assets(), &choice).expect("the four-legged match");
+        let mut headless = Match::new(&plan);
+        let mut app = window(&choice, Duration::from_millis(50));
+        for _ in 0..60 {
+            app.update();
+        }
+        while headless.clock().tick < app.world().resource::<Clock>().tick {
+            headless.tick();
+        }
+        assert_eq!(app.world().resource::<Record>().digest, headless.record().digest);
+        let shown = app.world_mut().query::<&Shown>().iter(app.world()).count();
+        assert_eq!(shown, 8 + 1, "robots and the ball");
+    }
+
+    #[test]
     fn a_match_is_drawn_once_and_cleared_away_for_the_next() {
         let choice = Choice { seed: 3, ..Choice::default() };
         let mut app = window(&choice, Duration::from_millis(16));

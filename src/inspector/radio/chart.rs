@@ -16,8 +16,8 @@ use crate::robot::Condition;
 use crate::view::colours;
 
 /// Width of the robots' names before the lanes, and height of the times below them, in points.
-const NAMES: f32 = 92.0;
-const TIMES: f32 = 18.0;
+pub const NAMES: f32 = 106.0;
+pub const TIMES: f32 = 18.0;
 /// A message may have been sent so long before the time that is shown and arrive within it, s.
 const LONGEST_WAY: f32 = 4.0;
 /// The pointer means an arrow that is no farther away than this, in points.
@@ -58,10 +58,7 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, v
 /// The time that is shown, and the kinds of messages.
 fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
     ui.horizontal(|ui| {
-        ui.weak("Last");
-        for span in Span::ALL {
-            ui.selectable_value(&mut view.span, span, format!("{} s", span.seconds()));
-        }
+        show_spans(ui, view);
         ui.separator();
         for kind in MessageKind::ALL {
             ui.checkbox(view.filter.kind(kind), kind.to_string())
@@ -70,6 +67,15 @@ fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
         ui.separator();
         show_key(ui);
     });
+}
+
+/// The time that the charts show.
+pub fn show_spans(ui: &mut egui::Ui, view: &mut RadioView) {
+    ui.weak("Last");
+    for span in Span::ALL {
+        let tip = "The time from the left edge to the right one";
+        ui.selectable_value(&mut view.span, span, format!("{} s", span.seconds())).on_hover_text(tip);
+    }
 }
 
 /// How lost and late messages and locks look.
@@ -112,7 +118,8 @@ fn show_names(
     }
 }
 
-fn paint_times(painter: &egui::Painter, axes: &Axes, dt: f32) {
+/// Writes the times below the lanes, with a faint line through them at each.
+pub fn paint_times(painter: &egui::Painter, axes: &Axes, dt: f32) {
     let quiet = tints::egui(colours::QUIET);
     let (marks, _) = axes.marks(dt);
     for mark in marks {

@@ -28,6 +28,7 @@ pub fn show(ui: &mut egui::Ui, team: Team, heard: &Heard, view: &mut RadioView, 
         ui.separator();
         for (page, name, tip) in [
             (Page::Messages, "Messages", "Who told whom what, and when"),
+            (Page::Bookings, "Bookings", "Whom each robot believed to have booked the ball"),
             (Page::Robots, "Robots", "Counters of each robot, and what a person may do to it"),
         ] {
             if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {

@@ -1,6 +1,8 @@
 //! The radio's panel, across the window below the pitch: what the robots of a team say to each other, how much of it arrives,
 //! and what a person may do to the radio and to the robots. Key M opens and closes it.
 
+mod belief_history;
+mod bookings;
 mod chart;
 mod filter;
 mod head;
@@ -15,6 +17,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
+use belief_history::BeliefHistory;
 pub use filter::{Filter, is_of_a_swap};
 use locks::LockHistory;
 
@@ -23,13 +26,15 @@ pub use layout::way_of_a_lost_one;
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::radio::{Conditions, RadioLog, Traffic};
+use crate::record::Record;
 use crate::robot::{Condition, Robot};
 use crate::script::{Request, Requests};
+use crate::strategy::Strategies;
 use crate::view::layout::{FreeArea, PanelSystems};
 use crate::view::state::{Overlays, Pace, Screen, Selected};
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<RadioView>().add_plugins(locks::plugin).add_systems(
+    app.init_resource::<RadioView>().add_plugins((locks::plugin, belief_history::plugin)).add_systems(
         EguiPrimaryContextPass,
         dock.in_set(PanelSystems::Low)
             .run_if(in_state(Screen::Match).and_then(|overlays: Res<Overlays>| overlays.radio)),
@@ -74,6 +79,7 @@ impl Span {
 enum Page {
     #[default]
     Messages,
+    Bookings,
     Robots,
 }
 
@@ -86,11 +92,19 @@ struct Heard<'w, 's> {
     traffic: Res<'w, Traffic>,
     conditions: Res<'w, Conditions>,
     locks: Res<'w, LockHistory>,
+    beliefs: Res<'w, BeliefHistory>,
+    record: Res<'w, Record>,
+    strategies: Res<'w, Strategies>,
     selected: Res<'w, Selected>,
     robots: Query<'w, 's, (&'static RobotId, &'static Robot)>,
 }
 
 impl Heard<'_, '_> {
+    /// Whether a team books the ball.
+    fn books(&self, team: Team) -> bool {
+        self.strategies.of(team).teamwork.ball_booking.is_some()
+    }
+
     /// The robots of a team, by number.
     fn team(&self, team: Team) -> Vec<(RobotId, Condition)> {
         let robots = self.robots.iter().filter(|(id, _)| id.team == team);
@@ -142,6 +156,7 @@ fn dock(
         ui.separator();
         match view.page {
             Page::Messages => chart::show(ui, &robots, &heard, &mut view),
+            Page::Bookings => bookings::show(ui, team, &robots, &heard, &mut view),
             Page::Robots => robots::show(ui, &robots, &heard, &mut desk),
         }
         closed

@@ -48,7 +48,7 @@ pub fn story_of(span: &Span, clock: &Clock) -> String {
 }
 
 /// A tick as seconds of the match.
-fn moment(tick: u64, clock: &Clock) -> String {
+pub fn moment(tick: u64, clock: &Clock) -> String {
     format!("{:.2} s", tick as f64 * f64::from(clock.dt))
 }
 

@@ -54,7 +54,7 @@ fn penalty(robot: &Looked) -> String {
     }
 }
 
-fn hand_over(ui: &mut egui::Ui, id: RobotId, piloted: bool, desk: &mut Desk) {
+pub(super) fn hand_over(ui: &mut egui::Ui, id: RobotId, piloted: bool, desk: &mut Desk) {
     let (words, tip) = if piloted {
         ("Hand back", "Let the strategy drive it again (H)")
     } else {

@@ -2,15 +2,20 @@
 
 mod activity;
 mod beliefs;
+mod calibration;
 mod identity;
 mod motor;
+mod pad;
 mod percepts;
+mod teleoperation;
 
 use bevy_egui::egui;
 
 use super::subject::Looked;
 use super::weights::Weights;
+use crate::game::TeamPlan;
 use crate::script::Requests;
+use crate::view::levers::Levers;
 use crate::view::state::Piloted;
 
 /// What the panel may ask for, and what it shows of that.
@@ -18,6 +23,9 @@ pub struct Desk<'a> {
     pub requests: &'a mut Requests,
     pub weights: &'a mut Weights,
     pub piloted: &'a mut Piloted,
+    pub levers: &'a mut Levers,
+    /// What the files say of the robot's values.
+    pub file: Option<&'a TeamPlan>,
     /// Whether the panel is open.
     pub open: &'a mut bool,
 }
@@ -29,10 +37,12 @@ pub fn draw_head(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
 
 /// Draws what is inside a robot, from top to bottom.
 pub fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
-    section(ui, "Activity", |ui| activity::draw(ui, robot));
-    section(ui, "Motor", |ui| motor::draw(ui, robot, desk));
-    section(ui, "Beliefs beside the truth", |ui| beliefs::draw(ui, robot));
-    section(ui, "Percepts", |ui| percepts::draw(ui, robot));
+    section(ui, "Teleoperation", false, |ui| teleoperation::draw(ui, robot, desk));
+    section(ui, "Activity", true, |ui| activity::draw(ui, robot));
+    section(ui, "Motor", true, |ui| motor::draw(ui, robot, desk));
+    section(ui, "Beliefs beside the truth", true, |ui| beliefs::draw(ui, robot));
+    section(ui, "Percepts", true, |ui| percepts::draw(ui, robot));
+    section(ui, "Calibration", false, |ui| calibration::draw(ui, robot, desk));
 }
 
 /// The button that closes the panel.
@@ -43,10 +53,10 @@ pub fn close_button(ui: &mut egui::Ui, open: &mut bool) {
     }
 }
 
-fn section(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui)) {
+fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) {
     ui.add_space(3.0);
     egui::CollapsingHeader::new(egui::RichText::new(title).strong())
         .id_salt(title)
-        .default_open(true)
+        .default_open(open)
         .show_unindented(ui, contents);
 }

@@ -47,6 +47,11 @@ impl Checker<'_> {
             Condition::Holder { robot, seen_by } => {
                 self.mates(*robot, *seen_by, "seen_by", &at.key("Holder"))
             }
+            Condition::Goes(robot) => self.robot(*robot, &at.key("Goes")),
+            Condition::Going { at_least, at_most, .. } => self.counts(*at_least, *at_most, &at.key("Going")),
+            Condition::Booker { robot, seen_by } => {
+                self.mates(*robot, *seen_by, "seen_by", &at.key("Booker"))
+            }
             Condition::Locked { robot, by } => self.mates(*robot, *by, "by", &at.key("Locked")),
             Condition::Distance { from, to, below, above } => {
                 let at = at.key("Distance");
@@ -74,14 +79,7 @@ impl Checker<'_> {
             }
             Condition::Sent(packets) => self.packets(packets, &at.key("Sent")),
             Condition::Delivered(packets) => self.packets(packets, &at.key("Delivered")),
-            Condition::Goals { at_least, at_most, .. } => match (at_least, at_most) {
-                (None, None) => self.fault(&at.key("Goals"), "needs `at_least` or `at_most`"),
-                (Some(least), Some(most)) if least > most => self.fault(
-                    &at.key("Goals").key("at_most"),
-                    format!("{most} is less than the {least} of `at_least`"),
-                ),
-                _ => Ok(()),
-            },
+            Condition::Goals { at_least, at_most, .. } => self.counts(*at_least, *at_most, &at.key("Goals")),
             Condition::RolesDistinct(team) | Condition::ConfigurationsAgree(team) => {
                 if self.robots.iter().any(|robot| robot.team == *team) {
                     return Ok(());
@@ -106,6 +104,16 @@ impl Checker<'_> {
                 self.time(*seconds, &at.key("For").key("seconds"))?;
                 self.condition(what, &at.key("For").key("what"))
             }
+        }
+    }
+
+    fn counts(&self, at_least: Option<u32>, at_most: Option<u32>, at: &Field) -> Result<()> {
+        match (at_least, at_most) {
+            (None, None) => self.fault(at, "needs `at_least` or `at_most`"),
+            (Some(least), Some(most)) if least > most => {
+                self.fault(&at.key("at_most"), format!("{most} is less than the {least} of `at_least`"))
+            }
+            _ => Ok(()),
         }
     }
 

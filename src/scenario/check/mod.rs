@@ -271,6 +271,7 @@ impl Checker<'_> {
         let at = at.key("what");
         match &event.what {
             Event::Crash(robot) => self.robot(*robot, &at.key("Crash")),
+            Event::Penalise(robot) => self.robot(*robot, &at.key("Penalise")),
             Event::Freeze(robot) => self.robot(*robot, &at.key("Freeze")),
             Event::Deaf(robot) => self.robot(*robot, &at.key("Deaf")),
             Event::Mute(robot) => self.robot(*robot, &at.key("Mute")),

@@ -58,6 +58,7 @@ impl Resolver<'_> {
     fn ball_booking(&self, booking: &BallBooking, at: &Field) -> Result<()> {
         self.not_negative(booking.threshold, &at.key("threshold"))?;
         self.positive(booking.renewal, &at.key("renewal"))?;
+        self.positive(booking.sight, &at.key("sight"))?;
         if !(booking.timeout.is_finite() && booking.timeout > booking.renewal) {
             let message =
                 format!("must be longer than the renewal of {} s, or every booking lapses", booking.renewal);

@@ -1,0 +1,218 @@
+//! The team communication's panel, across the window below the pitch, as the ChaosManager shows it: what modules said and heard by
+//! type, the queues in which their data wait, messages that arrived in part, and the referee box's view of the match. Key N opens
+//! and closes it.
+
+mod columns;
+mod fragments;
+mod modules;
+mod referee;
+mod tally;
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+use egui::RichText;
+
+use super::tints;
+use crate::clock::Clock;
+use crate::gamecontroller::BoxNews;
+use crate::ids::{RobotId, Team};
+use crate::referee::{MatchState, Orders};
+use crate::tcm::{DataType, Registry, Tcm, TcmClient};
+use crate::view::colours;
+use crate::view::layout::{FreeArea, PanelSystems};
+use crate::view::state::{Overlays, Screen, Selected};
+use tally::Tally;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<CommunicationView>().add_systems(
+        EguiPrimaryContextPass,
+        dock.in_set(PanelSystems::Low)
+            .run_if(in_state(Screen::Match).and_then(|overlays: Res<Overlays>| overlays.communication)),
+    );
+}
+
+/// What of the team communication is looked at.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct CommunicationView {
+    page: Page,
+    whose: Whose,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Page {
+    #[default]
+    Modules,
+    Fragments,
+    Referee,
+}
+
+impl Page {
+    const ALL: [(Page, &'static str, &'static str); 3] = [
+        (Page::Modules, "Modules", "What modules said and heard of each type, and their queues"),
+        (Page::Fragments, "Fragments", "Messages that the selected robot has received in part"),
+        (Page::Referee, "Referee", "What the GameController says, and what each robot was told"),
+    ];
+}
+
+/// Whose counters are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Whose {
+    /// The selected robot's, and all while there is none.
+    #[default]
+    Selected,
+    Team(Team),
+    All,
+}
+
+impl Whose {
+    /// Whether a robot's counters count.
+    fn includes(self, robot: RobotId, selected: Option<RobotId>) -> bool {
+        match self {
+            Whose::Selected => selected.is_none_or(|selected| selected == robot),
+            Whose::Team(team) => robot.team == team,
+            Whose::All => true,
+        }
+    }
+}
+
+/// What there is to see of the team communication.
+#[derive(SystemParam)]
+struct Heard<'w, 's> {
+    clock: Res<'w, Clock>,
+    state: Res<'w, MatchState>,
+    registry: Res<'w, Registry>,
+    selected: Res<'w, Selected>,
+    news: Option<Res<'w, BoxNews>>,
+    robots: Query<'w, 's, (&'static RobotId, &'static Tcm, &'static TcmClient, &'static Orders)>,
+}
+
+impl Heard<'_, '_> {
+    fn tally(&self, whose: Whose) -> Tally {
+        let mut tally = Tally::default();
+        tally.name(self.registry.types().map(|(data_type, known)| (known.module, data_type)));
+        for (id, tcm, client, _) in self.robots.iter() {
+            if whose.includes(*id, self.selected.0) {
+                tally.add(&tcm.counters);
+                tally.add_queues(client.rows());
+            }
+        }
+        tally
+    }
+
+    fn orders(&self) -> Vec<(RobotId, Orders)> {
+        let mut orders: Vec<_> = self.robots.iter().map(|(id, .., orders)| (*id, *orders)).collect();
+        orders.sort_unstable_by_key(|(id, _)| *id);
+        orders
+    }
+
+    fn name_of(&self, data_type: DataType) -> String {
+        let known = self.registry.types().find(|(known, _)| *known == data_type);
+        known.map_or_else(|| data_type.to_string(), |(_, registered)| registered.name.to_owned())
+    }
+}
+
+/// Heights of the panel in points: at first, least and most.
+const HEIGHT: (f32, f32, f32) = (246.0, 150.0, 420.0);
+
+fn dock(
+    mut contexts: EguiContexts,
+    (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
+    heard: Heard,
+    mut view: ResMut<CommunicationView>,
+) -> Result {
+    let ctx = contexts.ctx_mut()?;
+    let panel = egui::Panel::bottom("communication")
+        .resizable(true)
+        .default_size(HEIGHT.0)
+        .size_range(HEIGHT.1..=HEIGHT.2)
+        .frame(egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)));
+    let closed = area.dock(ctx, "communication", panel, |ui| {
+        super::panel::set_close(ui);
+        let closed = show_head(ui, &heard, &mut view);
+        ui.separator();
+        let names = |data_type: DataType| heard.name_of(data_type);
+        match view.page {
+            Page::Modules => modules::show(ui, &heard.tally(view.whose), &names),
+            Page::Fragments => {
+                let looked_at = heard.robots.iter().find(|(id, ..)| Some(**id) == heard.selected.0);
+                let assembly = looked_at.map(|(id, tcm, ..)| (*id, &tcm.assembly));
+                fragments::show(ui, assembly, &heard.clock, &names);
+            }
+            Page::Referee => {
+                referee::show(ui, heard.news.as_deref(), &heard.state, &heard.clock, &heard.orders());
+            }
+        }
+        closed
+    });
+    if closed {
+        overlays.communication = false;
+    }
+    Ok(())
+}
+
+/// Shows the pages and whose counters are meant; whether the panel is to be closed.
+fn show_head(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) -> bool {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Team communication").size(15.0).strong());
+        ui.separator();
+        for (page, name, tip) in Page::ALL {
+            if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {
+                view.page = page;
+            }
+        }
+        if view.page == Page::Modules {
+            ui.separator();
+            show_whose(ui, heard, view);
+        }
+        let right = egui::Layout::right_to_left(egui::Align::Center);
+        ui.with_layout(right, |ui| {
+            let close = egui::Button::new("⏷").frame(false);
+            ui.add(close).on_hover_text("Close the team communication's panel (N)").clicked()
+        })
+        .inner
+    })
+    .inner
+}
+
+fn show_whose(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {
+    let selected = heard.selected.0;
+    ui.weak("Counters of");
+    let own = selected.map_or("the selected robot".into(), |robot| robot.to_string());
+    for (whose, name, tip) in [
+        (Whose::Selected, own.as_str(), "The selected robot; all robots together while none is selected"),
+        (Whose::Team(Team::Home), "home", "All robots of home together"),
+        (Whose::Team(Team::Away), "away", "All robots of away together"),
+        (Whose::All, "all robots", "The robots of both teams together"),
+    ] {
+        let team = match whose {
+            Whose::Selected => selected.map(|robot| robot.team),
+            Whose::Team(team) => Some(team),
+            Whose::All => None,
+        };
+        let text = match team {
+            Some(team) => RichText::new(name).color(tints::egui(colours::team_text(team))),
+            None => RichText::new(name),
+        };
+        if ui.selectable_label(view.whose == whose, text).on_hover_text(tip).clicked() {
+            view.whose = whose;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counters_are_of_one_robot_a_team_or_all() {
+        let (mine, mate, other) =
+            (RobotId::new(Team::Home, 1), RobotId::new(Team::Home, 2), RobotId::new(Team::Away, 1));
+        let included =
+            |whose: Whose, selected| [mine, mate, other].map(|robot| whose.includes(robot, selected));
+        assert_eq!(included(Whose::Selected, Some(mine)), [true, false, false]);
+        assert_eq!(included(Whose::Selected, None), [true; 3]);
+        assert_eq!(included(Whose::Team(Team::Home), Some(other)), [true, true, false]);
+        assert_eq!(included(Whose::All, Some(mine)), [true; 3]);
+    }
+}

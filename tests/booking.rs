@@ -1,0 +1,84 @@
+//! Ball booking in whole matches of four-legged robots: what it is worth against the crowd around the ball, and what its four
+//! requirements come to while robots see badly and the radio loses messages.
+
+use touchline::game::{Choice, Match, MatchPlan};
+use touchline::ids::Team;
+use touchline::record::Record;
+use touchline::referee::Phase;
+
+use crate::support::assets;
+
+fn plan(home: &str, away: &str, seed: u64, half_minutes: f32) -> MatchPlan {
+    let choice = Choice {
+        file: Some("four_legged_2005".into()),
+        home: Some(home.into()),
+        away: Some(away.into()),
+        half_minutes: Some(half_minutes),
+        seed,
+        ..Choice::default()
+    };
+    MatchPlan::read(&assets(), &choice).expect("the shipped match is sound")
+}
+
+fn played(plan: &MatchPlan) -> Match {
+    let mut game = Match::new(plan);
+    while !game.is_over() {
+        game.tick();
+    }
+    game
+}
+
+/// Share of play with two or more robots of a team within half a metre of the ball.
+fn agglomeration(record: &Record, team: Team) -> f64 {
+    record.agglomeration[team.index()] / record.played
+}
+
+#[test]
+fn a_team_that_books_the_ball_agglomerates_less_than_half_as_much_as_one_that_does_not() {
+    let (mut with, mut without) = (0.0, 0.0);
+    for seed in 1..=4 {
+        for (home, away, booking) in
+            [("chaos_b3p", "chaos_plain", Team::Home), ("chaos_plain", "chaos_b3p", Team::Away)]
+        {
+            let game = played(&plan(home, away, seed, 2.0));
+            with += agglomeration(game.record(), booking);
+            without += agglomeration(game.record(), booking.opponent());
+        }
+    }
+    assert!(with < 0.5 * without, "{with} with booking, {without} without");
+}
+
+#[test]
+fn requirements_are_broken_for_moments_only() {
+    for seed in 1..=4 {
+        let game = played(&plan("chaos_b3p", "chaos_plain", seed, 2.0));
+        let (figures, record) = (game.record().bookings[0], game.record());
+        let renewal_and_delay = 0.5;
+        assert!(figures.several_go.longest < renewal_and_delay, "seed {seed}: {figures:?}");
+        assert!(figures.nobody_goes.longest < renewal_and_delay, "seed {seed}: {figures:?}");
+        assert!(figures.farther_goes.longest < renewal_and_delay, "seed {seed}: {figures:?}");
+        assert!(figures.several_go.total < 0.02 * record.played, "seed {seed}: {figures:?}");
+        assert!(figures.takeovers > 5, "seed {seed}: nobody ever took the ball over");
+    }
+}
+
+#[test]
+fn whole_matches_of_four_legged_robots_end_and_both_kinds_of_robots_can_meet() {
+    let mixed = Choice {
+        file: Some("four_legged_2005".into()),
+        home: Some("hammerheads_2001".into()),
+        away: Some("ball_chasers".into()),
+        half_minutes: Some(1.0),
+        ..Choice::default()
+    };
+    let mut mixed = MatchPlan::read(&assets(), &mixed).expect("any team can play on any pitch");
+    let cyes = MatchPlan::read(&assets(), &Choice::default()).expect("the shipped match is sound");
+    mixed.teams[1].kind = cyes.teams[1].kind.clone();
+    mixed.teams[1].sensing = cyes.teams[1].sensing.clone();
+    for plan in [mixed, plan("chaos_b3p", "chaos_b3p_paper", 3, 1.0)] {
+        let game = played(&plan);
+        assert_eq!(game.state().phase, Phase::Finished);
+        let record = game.record();
+        assert!(record.driven_by(Team::Home) > 5.0 && record.driven_by(Team::Away) > 5.0);
+    }
+}

@@ -1,0 +1,230 @@
+//! Robots that are processes of their own.
+
+use std::net::SocketAddr;
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+use touchline::data::DataError;
+use touchline::game::MatchPlan;
+use touchline::ids::{RobotId, Team};
+use touchline::motor::SteeringIntent;
+use touchline::referee::Phase;
+use touchline::tcm::HOST;
+use touchline::tcm::udp::UdpError;
+use touchline::wire::{self, WireError, WirePlan};
+
+use super::{HOME_1, address_of, free_directory, open, stranger, talkative};
+
+/// A process that ends with the test, whatever happens.
+struct Process(Option<Child>);
+
+impl Process {
+    fn start(arguments: &[&str], addresses: &Path) -> Process {
+        let child = Command::new(env!("CARGO_BIN_EXE_touchline"))
+            .args(arguments)
+            .arg("--addresses")
+            .arg(addresses)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn();
+        Process(Some(child.expect("the program starts")))
+    }
+
+    /// A robot of [`talkative`], once it listens at its address; `None` if it could not.
+    fn robot(robot: RobotId, at: SocketAddr, addresses: &Path) -> Option<Process> {
+        let (team, number) = (robot.team.to_string(), robot.number.to_string());
+        let of = ["robot", "--json", "--team", &team, "--number", &number];
+        let mut process = Process::start(&[&of[..], &TALKATIVE].concat(), addresses);
+        let child = process.0.as_mut().expect("it was not ended yet");
+        while !is_somebody_at(at) {
+            if child.try_wait().expect("it is ours").is_some() {
+                let error = process.end().stderr;
+                assert!(String::from_utf8_lossy(&error).contains("cannot listen at"), "{robot}: {error:?}");
+                return None;
+            }
+            std::thread::yield_now();
+        }
+        Some(process)
+    }
+
+    /// Waits for it and returns what it has printed.
+    fn end(&mut self) -> Output {
+        let child = self.0.take().expect("it was not ended yet");
+        child.wait_with_output().expect("it is ours")
+    }
+
+    fn kill(&mut self) {
+        if let Some(mut child) = self.0.take() {
+            child.kill().and_then(|()| child.wait().map(drop)).expect("it is ours");
+        }
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+/// The match that [`talkative`] is, as options, but for the length of its halves.
+const TALKATIVE: [&str; 6] = ["--home", "hammerheads_swap", "--away", "hammerheads_swap", "--seed", "7"];
+
+/// Whether a socket is bound to an address. Who is there counts a foreign datagram.
+fn is_somebody_at(address: SocketAddr) -> bool {
+    let probe = stranger();
+    probe.connect(address).expect("it is an address of this machine");
+    probe.set_read_timeout(Some(Duration::from_millis(5))).expect("sockets can do that");
+    // An error tells of the datagram before.
+    let refused = |_| probe.send(b"?").is_err() || probe.recv(&mut [0]).is_err_and(is_refusal);
+    !(0..3).any(refused)
+}
+
+fn is_refusal(error: std::io::Error) -> bool {
+    use std::io::ErrorKind::{ConnectionRefused, ConnectionReset};
+    matches!(error.kind(), ConnectionRefused | ConnectionReset)
+}
+
+/// Writes the addresses of a match to a file.
+fn write_addresses(plan: &MatchPlan, folder: &Path) -> std::path::PathBuf {
+    let file = folder.join("addresses.ron");
+    let lines =
+        plan.directory().entries().map(|(who, at)| format!("{:?}: {:?},\n", who.to_string(), at.to_string()));
+    std::fs::write(&file, format!("{{\n{}}}\n", lines.collect::<String>())).expect("the file is written");
+    file
+}
+
+/// The result of a match and what its robots in other processes say.
+struct Played {
+    result: Value,
+    robots: Vec<(RobotId, Value)>,
+}
+
+fn json(output: Output) -> Value {
+    let Output { status, stdout, stderr } = output;
+    assert!(status.success(), "{status}: {}", String::from_utf8_lossy(&stderr));
+    serde_json::from_slice(&stdout).expect("the report is JSON")
+}
+
+/// Plays [`talkative`] with these robots elsewhere; `None` if somebody else took a port.
+fn play(remote: &[RobotId], minutes: &str) -> Option<Played> {
+    let mut plan = talkative(1.0);
+    plan.addresses = Some(free_directory(&plan));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let addresses = write_addresses(&plan, folder.path());
+    // First the robots, so that none of them speaks to one that does not listen yet.
+    let start = |robot: &RobotId| Process::robot(*robot, address_of(&plan, *robot), &addresses);
+    let mut robots = remote.iter().map(start).collect::<Option<Vec<_>>>()?;
+    let names: Vec<String> = remote.iter().map(|robot| robot.to_string().replace(' ', ":")).collect();
+    let elsewhere = names.iter().flat_map(|name| ["--remote", name]);
+    let options: Vec<&str> =
+        ["run", "--json", "--minutes", minutes].into_iter().chain(TALKATIVE).chain(elsewhere).collect();
+    let output = Process::start(&options, &addresses).end();
+    if String::from_utf8_lossy(&output.stderr).contains("cannot listen at") {
+        return None;
+    }
+    let result = json(output);
+    let robots = remote.iter().zip(&mut robots).map(|(id, robot)| (*id, json(robot.end()))).collect();
+    Some(Played { result, robots })
+}
+
+/// The sum of a figure over these reports.
+fn sum<'a>(reports: impl Iterator<Item = &'a Value>, figure: &str) -> u64 {
+    reports.map(|report| report[figure].as_u64().expect("it is a number")).sum()
+}
+
+/// A machine that is busy with other things can make robots answer late, and what they say after the end is lost; then
+/// the match is played again.
+fn play_in_time(remote: &[RobotId], minutes: &str) -> Played {
+    let mut played = (0..10).filter_map(|_| play(remote, minutes));
+    let in_time = |played: &Played| {
+        let elsewhere = played.result["network"]["elsewhere"].as_array().expect("it is a list");
+        sum(elsewhere.iter(), "missed") == 0
+    };
+    played.find(in_time).expect("in one of ten matches everybody is in time")
+}
+
+#[test]
+fn a_match_between_processes_is_played_to_its_end_and_no_datagram_is_lost() {
+    let home = (0..4).map(|number| RobotId::new(Team::Home, number));
+    let remote: Vec<RobotId> = home.chain([RobotId::new(Team::Away, 2)]).collect();
+    let Played { result, robots } = play_in_time(&remote, "0.05");
+    let (seconds, ticks) = (result["seconds"].as_f64(), result["ticks"].as_u64());
+    assert!(seconds >= Some(6.0), "both halves of three seconds: {seconds:?}");
+    let network = &result["network"];
+    let elsewhere = network["elsewhere"].as_array().expect("it is a list");
+    assert_eq!(elsewhere.len(), robots.len());
+    for (told, (id, robot)) in elsewhere.iter().zip(&robots) {
+        assert_eq!((&told["robot"], &robot["robot"]), (&Value::from(id.to_string()), &told["robot"]));
+        assert_eq!(told["answered"].as_u64(), ticks, "{id}");
+        assert_eq!(told["told"].as_u64(), ticks.map(|ticks| ticks + 1), "{id} is told of the end");
+        assert!(robot["answered"].as_u64() > ticks, "{id} has also answered the greeting");
+        assert_eq!((&told["sent"], &robot["refused"]), (&robot["sent"], &Value::from(0)), "{id}");
+        assert!(robot["sent"].as_u64() > Some(50), "{id}: {robot}");
+    }
+    let (at_home, away): (Vec<_>, Vec<_>) = robots.iter().partition(|(id, _)| id.team == Team::Home);
+    let at_home = || at_home.iter().map(|(_, robot)| robot);
+    let away = || away.iter().map(|(_, robot)| robot).chain([&network["here"]]);
+    assert_eq!(sum(at_home(), "sent"), sum(at_home(), "received"), "{robots:?}");
+    assert_eq!(sum(away(), "sent"), sum(away(), "received"), "{robots:?}, {network}");
+}
+
+#[test]
+fn a_match_whose_remote_robot_dies_goes_on_to_its_end_and_the_robot_stands() {
+    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
+    let plan = MatchPlan { wires: remote, ..talkative(0.02) };
+    let (mut game, mut robot) = loop {
+        let (game, plan) = open(&plan);
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let addresses = write_addresses(&plan, folder.path());
+        if let Some(robot) = Process::robot(HOME_1, address_of(&plan, HOME_1), &addresses) {
+            break (game, robot);
+        }
+    };
+    wire::greet(game.world_mut()).expect("the robot is there");
+    // Long enough for a robot that has fallen silent to stand, and not much longer, as each tick waits for it.
+    let last_ticks = 36.0 / 60.0;
+    while game.state().half == 1
+        || game.state().phase != Phase::Playing
+        || game.state().time_left > last_ticks
+    {
+        game.tick();
+    }
+    let before = wire::remote_figures(game.world())[0];
+    assert!(before.answered > 0, "{before:?}");
+    robot.kill();
+    while !game.is_over() {
+        game.tick();
+    }
+    let after = wire::remote_figures(game.world())[0];
+    assert_eq!(after.answered, before.answered);
+    assert!(after.missed >= before.missed + 30, "{after:?}");
+    assert_eq!(after.told, after.answered + after.missed);
+    let mut robots = game.world_mut().query::<(&RobotId, &SteeringIntent)>();
+    let intent = robots.iter(game.world()).find(|(id, _)| **id == HOME_1).map(|(_, intent)| *intent);
+    assert_eq!(intent, Some(SteeringIntent::Stop));
+}
+
+#[test]
+fn a_remote_robot_that_never_comes_is_named_in_one_line() {
+    let address = SocketAddr::from(([127, 0, 0, 1], 7401));
+    let error = DataError::from(WireError::Silent { robot: HOME_1, address }).to_string();
+    for word in ["home 1", "127.0.0.1:7401", "touchline robot"] {
+        assert!(error.contains(word), "{error}");
+    }
+    assert_eq!(error.lines().count(), 1, "{error}");
+}
+
+#[test]
+fn a_match_needs_an_address_of_its_own_for_robots_elsewhere() {
+    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
+    let plan = MatchPlan { wires: remote, ..talkative(0.1) };
+    let (mut game, plan) = open(&plan);
+    let without = plan.directory().entries().filter(|(who, _)| *who != HOST).collect();
+    let plan = MatchPlan { addresses: Some(without), ..plan };
+    let error = wire::open(game.world_mut(), &plan).expect_err("it has none");
+    assert!(!matches!(error, WireError::Udp(UdpError::Bind { .. })), "{error}");
+    assert!(error.to_string().contains("computer 255 has no address"), "{error}");
+}

@@ -1,0 +1,336 @@
+//! Matches that a referee box referees, and matches that are announced as if by one.
+
+use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
+
+use bevy::prelude::*;
+use touchline::game::{Match, MatchPlan};
+use touchline::gamecontroller::BoxNews;
+use touchline::gamecontroller::announcement::{Sentence, Standing};
+use touchline::gamecontroller::control::{Penalty, SetPlay, State};
+use touchline::gamecontroller::referee_box::{Heard, RefereeBox};
+use touchline::gamecontroller::status::{PORT, STATUS_LEN, StatusPacket};
+use touchline::ids::{RobotId, Team};
+use touchline::pitch::Pitch;
+use touchline::referee::{Decision, Orders, Phase, RobotState, Whistles};
+use touchline::robot::OffPitch;
+use touchline::script::{Request, Requests, Shove};
+use touchline::teamwork::Booking;
+use touchline::wire::WirePlan;
+use touchline::world_model::WorldModel;
+
+use super::{open, plan, stranger, talkative};
+use crate::support::ball;
+
+/// The league's numbers of home and away.
+const TEAMS: [u8; 2] = [12, 34];
+
+/// A match and the box that referees it.
+struct Refereed {
+    game: Match,
+    socket: UdpSocket,
+    to: SocketAddr,
+    says: Standing,
+}
+
+impl Refereed {
+    fn new(plan: MatchPlan) -> Refereed {
+        // Any address here is moved to a free one.
+        let gamecontroller = Some(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
+        let plan = MatchPlan { wires: WirePlan { gamecontroller, ..WirePlan::default() }, ..plan };
+        let players = plan.teams[0].strategy.players.len() as u8;
+        let (game, plan) = open(&plan);
+        let says = Standing {
+            packet_number: 0,
+            state: State::Initial,
+            set_play: SetPlay::None,
+            stopped: false,
+            first_half: true,
+            kicking: Some(0),
+            seconds_left: 600.0,
+            secondary_time: 0.0,
+            score: [0, 0],
+            team_numbers: TEAMS,
+            players_per_team: players,
+            penalties: Vec::new(),
+        };
+        let to = plan.wires.gamecontroller.expect("it was asked for");
+        Refereed { game, socket: stranger(), to, says }
+    }
+
+    /// The same, with the ball in play.
+    fn playing(plan: MatchPlan) -> Refereed {
+        let mut refereed = Refereed::new(plan);
+        for state in [State::Initial, State::Ready, State::Set, State::Playing] {
+            refereed.say(|says| says.state = state);
+        }
+        refereed
+    }
+
+    /// The box says something else, and the match hears it in a tick.
+    fn say(&mut self, change: impl FnOnce(&mut Standing)) {
+        change(&mut self.says);
+        self.says.packet_number = self.says.packet_number.wrapping_add(1);
+        self.send(&self.says.packet().write());
+        self.ticks(1);
+    }
+
+    fn send(&self, bytes: &[u8]) {
+        self.socket.send_to(bytes, self.to).expect("it is sent");
+    }
+
+    fn ticks(&mut self, ticks: u64) {
+        (0..ticks).for_each(|_| self.game.tick());
+    }
+
+    fn phase(&self) -> Phase {
+        self.game.state().phase
+    }
+
+    fn heard(&self) -> Heard {
+        self.game.world().resource::<BoxNews>().heard
+    }
+
+    /// What the referee tells a robot, and whether it is off the pitch.
+    fn orders(&mut self, robot: RobotId) -> (RobotState, bool) {
+        let mut robots = self.game.world_mut().query::<(&RobotId, &Orders, Has<OffPitch>)>();
+        let found = robots.iter(self.game.world()).find(|(id, ..)| **id == robot);
+        found.map(|(_, orders, off)| (orders.state, off)).expect("the robot is in the match")
+    }
+
+    /// The robots of home that take another one to have booked the ball, with that one.
+    fn bookings(&mut self) -> Vec<(u8, u8)> {
+        let tick = self.game.clock().tick;
+        let mut robots = self.game.world_mut().query::<(&RobotId, &Booking)>();
+        let booked =
+            robots.iter(self.game.world()).filter(|(id, _)| id.team == Team::Home).filter_map(|(id, own)| {
+                let booking = own.0.booking().filter(|_| own.0.is_booked(tick))?;
+                (booking.robot_booker != id.number).then_some((id.number, booking.robot_booker))
+            });
+        booked.collect()
+    }
+}
+
+/// Puts the ball somewhere to rest.
+fn put_ball(game: &mut Match, at: Vec2) {
+    let put = Request::Body(Shove::Ball { at, velocity: Vec2::ZERO });
+    game.world_mut().resource_mut::<Requests>().ask(put);
+}
+
+const IN_THE_EASTERN_GOAL: Vec2 = Vec2::new(4.7, 0.0);
+
+#[test]
+fn a_box_leads_a_match_through_its_states_to_its_end() {
+    let mut refereed = Refereed::new(talkative(10.0));
+    refereed.ticks(600);
+    assert_eq!(refereed.phase(), Phase::Initial, "nobody begins without the box");
+    let states = [State::Initial, State::Ready, State::Set, State::Playing];
+    let phases = [Phase::Initial, Phase::Ready, Phase::Set, Phase::Playing];
+    for (half, kicking) in [(1, 1), (2, 0)] {
+        for (state, phase) in states.into_iter().zip(phases) {
+            refereed.say(|says| {
+                (says.state, says.first_half, says.kicking) = (state, half == 1, Some(kicking));
+                says.seconds_left = 500.0 - f64::from(phase as u8);
+            });
+            let is = refereed.game.state();
+            let expected = 500.0 - f64::from(phase as u8);
+            assert_eq!((is.phase, is.half, is.time_left), (phase, half, expected));
+            assert_eq!(is.kick_off, Team::BOTH[kicking]);
+            // For longer than our own referee would leave robots in any of the states.
+            refereed.ticks(300);
+            assert_eq!(refereed.phase(), phase);
+        }
+        let home_attacks = refereed.game.state().attacking(Team::Home).turn(Vec2::X).x;
+        assert_eq!(home_attacks > 0.0, half == 1);
+        refereed.say(|says| says.state = State::Finished);
+        assert_eq!(refereed.game.is_over(), half == 2);
+    }
+}
+
+#[test]
+fn a_ball_in_the_goal_is_a_goal_when_the_box_says_so() {
+    let mut ours = Match::new(&talkative(10.0));
+    while ours.state().phase != Phase::Playing {
+        ours.tick();
+    }
+    let mut refereed = Refereed::playing(talkative(10.0));
+    put_ball(&mut ours, IN_THE_EASTERN_GOAL);
+    put_ball(&mut refereed.game, IN_THE_EASTERN_GOAL);
+    ours.tick();
+    assert_eq!(ours.state().score, [1, 0], "our own referee sees a goal there");
+    refereed.ticks(60);
+    assert_eq!((refereed.game.state().score, refereed.phase()), ([0, 0], Phase::Playing));
+    assert_eq!(ball(&mut refereed.game).0.position, IN_THE_EASTERN_GOAL);
+    refereed.say(|says| (says.state, says.score, says.kicking) = (State::Ready, [1, 0], Some(1)));
+    let state = refereed.game.state();
+    assert_eq!((state.score, state.phase, state.kick_off), ([1, 0], Phase::Ready, Team::Away));
+    assert_eq!(ball(&mut refereed.game).0.position, Vec2::ZERO);
+    let whistles = refereed.game.world().resource::<Whistles>();
+    let goals =
+        whistles.heard.iter().filter(|(_, call)| matches!(call, Decision::Goal { by: Team::Home, .. }));
+    assert_eq!(goals.count(), 1);
+}
+
+#[test]
+fn a_penalised_robot_is_off_lets_its_booking_go_and_comes_back_when_the_box_says_so() {
+    let mut refereed = Refereed::playing(plan("four_legged_2005", ["chaos_b3p", "chaos_plain"], 10.0));
+    let name = |bookings: &[(u8, u8)], booker| bookings.iter().filter(|(_, of)| *of == booker).count();
+    let booker = loop {
+        refereed.ticks(1);
+        let bookings = refereed.bookings();
+        // All three mates know.
+        if let Some((_, booker)) = bookings.iter().find(|(_, booker)| name(&bookings, *booker) == 3) {
+            break *booker;
+        }
+        assert!(refereed.game.clock().now() < 60.0, "nobody books the ball");
+    };
+    let robot = RobotId::new(Team::Home, booker);
+    assert_eq!(refereed.orders(robot), (RobotState::Playing, false));
+    let sentence = Sentence { side: 0, player: booker, penalty: Penalty::Pushing, seconds_left: 30.0 };
+    refereed.say(|says| says.penalties = vec![sentence]);
+    assert_eq!(refereed.orders(robot), (RobotState::Penalised, true));
+    // Two decisions and the time of a message, while a booking that nobody withdraws expires after 48 ticks.
+    refereed.ticks(6);
+    for _ in 0..600 {
+        assert_eq!(name(&refereed.bookings(), booker), 0);
+        assert_eq!(refereed.orders(robot), (RobotState::Penalised, true));
+        refereed.ticks(1);
+    }
+    refereed.say(|says| says.penalties.clear());
+    assert_eq!(refereed.orders(robot), (RobotState::Playing, false));
+    assert!(refereed.game.state().removed.is_empty());
+    let (pose, _) = crate::support::robot(&mut refereed.game, Team::Home, booker);
+    assert!(refereed.game.world().resource::<Pitch>().holds(pose.position, 0.0), "{pose:?}");
+}
+
+#[test]
+fn what_is_no_packet_about_this_match_is_counted_and_not_followed() {
+    let mut refereed = Refereed::playing(talkative(10.0));
+    let before = refereed.heard();
+    assert_eq!(before, Heard { news: 4, ..Heard::default() });
+    let over = Standing { state: State::Finished, first_half: false, ..refereed.says.clone() };
+    let over = Standing { packet_number: over.packet_number + 1, score: [9, 9], ..over };
+    let elsewhere = Standing { team_numbers: [12, 35], ..over.clone() }.packet().write();
+    let version = [b"RGme\x14", &over.packet().write()[5..]].concat();
+    let short = &over.packet().write()[..197];
+    let late = Standing { packet_number: refereed.says.packet_number - 1, ..over.clone() }.packet().write();
+    for bytes in [&b"hello"[..], &version, short, &elsewhere, &late] {
+        refereed.send(bytes);
+    }
+    refereed.ticks(1);
+    let state = refereed.game.state();
+    assert_eq!((state.phase, state.half, state.score), (Phase::Playing, 1, [0, 0]));
+    let expected = Heard { not_ours: 1, version: 1, length: 1, teams: 1, ..before };
+    // What is late would be news to a match that has not heard of its box for two seconds.
+    let Heard { stale, news, .. } = refereed.heard();
+    assert_eq!(refereed.heard(), Heard { stale, news, ..expected });
+    assert_eq!(stale + news, 5);
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_box_is_told_twice_a_second_how_the_robots_are() {
+    // Linux has all addresses that begin with 127: each process takes one for itself.
+    let [.., high, middle, low] = std::process::id().to_be_bytes();
+    let me = Ipv4Addr::new(127, 1 + high % 250, middle, low);
+    let ears = UdpSocket::bind((me, PORT)).expect("nobody else has this address");
+    ears.set_nonblocking(true).expect("sockets can do that");
+    let mut refereed = Refereed::playing(talkative(10.0));
+    refereed.socket = UdpSocket::bind((me, 0)).expect("there is a free port");
+    refereed.say(|_| ());
+    let mut told = 0;
+    for _ in 0..120 {
+        let due = refereed.game.clock().tick.is_multiple_of(30);
+        let mut robots = refereed.game.world_mut().query::<(&RobotId, &WorldModel)>();
+        let mut models: Vec<(RobotId, WorldModel)> =
+            robots.iter(refereed.game.world()).map(|(id, model)| (*id, model.clone())).collect();
+        models.sort_by_key(|(id, _)| *id);
+        refereed.ticks(1);
+        for (id, model) in models.iter().filter(|_| due) {
+            let mut bytes = [0; STATUS_LEN + 1];
+            let length = ears.recv(&mut bytes).expect("each robot is told of");
+            let packet = StatusPacket::read(&bytes[..length]).expect("it is a status packet");
+            assert_eq!((packet.player_number, packet.team_number), (id.number + 1, TEAMS[id.team.index()]));
+            let at = Vec2::new(packet.x, packet.y);
+            assert!(at.distance(model.pose.position) < 1e-5, "{packet:?}, {model:?}");
+            assert_eq!((packet.theta, packet.ball.is_some()), (model.pose.heading, model.ball.is_some()));
+            told += 1;
+        }
+        assert!(ears.recv(&mut [0]).is_err(), "and of nobody more");
+    }
+    assert_eq!(told, 4 * 8);
+}
+
+/// A match that is announced, and the socket to which it is.
+fn announced(plan: MatchPlan) -> (Match, UdpSocket) {
+    let socket = stranger();
+    socket.set_nonblocking(true).expect("sockets can do that");
+    let announce = Some(socket.local_addr().expect("it is bound"));
+    let (game, _) = open(&MatchPlan { wires: WirePlan { announce, ..WirePlan::default() }, ..plan });
+    (game, socket)
+}
+
+fn next(socket: &UdpSocket) -> Option<Vec<u8>> {
+    let mut bytes = [0; 300];
+    socket.recv(&mut bytes).ok().map(|length| bytes[..length].to_vec())
+}
+
+#[test]
+fn a_match_that_is_announced_can_be_followed_with_its_score_state_and_seconds() {
+    let (mut game, socket) = announced(talkative(0.1));
+    let mut follower = RefereeBox::new(Some([1, 2]), 4);
+    let (mut shot, mut states) = (false, Vec::new());
+    while !game.is_over() {
+        if game.state().phase == Phase::Playing && !shot {
+            put_ball(&mut game, IN_THE_EASTERN_GOAL);
+            shot = true;
+        }
+        let before = game.state().clone();
+        let clock = game.clock();
+        game.tick();
+        let packet = next(&socket);
+        assert_eq!(packet.is_some(), clock.tick.is_multiple_of(30), "twice a second");
+        let Some(packet) = packet else { continue };
+        let view = follower.hear(&packet, (1000.0 * clock.now()) as u64);
+        let view = view.expect("it is a packet about this match").expect("it is news");
+        states.push(view.state);
+        assert_eq!((view.score, view.first_half), (before.score, before.half == 1));
+        assert_eq!(view.kicking, Some(before.kick_off.index()));
+        assert_eq!(f64::from(view.seconds_left), before.time_left.ceil());
+        let phase = [State::Initial, State::Ready, State::Set, State::Playing];
+        assert_eq!(Some(&view.state), phase.get(before.phase as usize));
+        let off: Vec<_> = before.removed.iter().map(|removal| removal.robot).collect();
+        let penalised = view.penalties.iter().zip(Team::BOTH);
+        let penalised =
+            penalised.flat_map(|(of, team)| of.iter().map(move |it| RobotId::new(team, it.player)));
+        assert_eq!(penalised.collect::<Vec<_>>(), off);
+    }
+    assert_eq!(game.state().score, [1, 0], "there was something to follow");
+    for state in [State::Ready, State::Set, State::Playing] {
+        assert!(states.contains(&state), "{states:?}");
+    }
+}
+
+#[test]
+fn one_match_can_referee_another() {
+    let (mut leader, socket) = announced(talkative(0.1));
+    let mut follower = Refereed::new(talkative(0.1));
+    let mut followed = 0;
+    while !leader.is_over() {
+        if leader.state().phase == Phase::Playing && leader.state().score == [0, 0] {
+            put_ball(&mut leader, IN_THE_EASTERN_GOAL);
+        }
+        let was = leader.state().clone();
+        leader.tick();
+        let packet = next(&socket);
+        packet.iter().for_each(|packet| follower.send(packet));
+        follower.ticks(1);
+        if packet.is_some() {
+            let is = follower.game.state();
+            assert_eq!((is.phase, is.half, is.score), (was.phase, was.half, was.score));
+            assert_eq!((is.kick_off, is.home_attacks), (was.kick_off, was.home_attacks));
+            followed += 1;
+        }
+    }
+    assert!(followed > 20, "{followed}");
+    assert_eq!((follower.heard().news, follower.game.state().score), (followed, [1, 0]));
+}
