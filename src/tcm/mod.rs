@@ -112,6 +112,11 @@ impl Tcm {
             counters: TypeCounters::default(),
         }
     }
+
+    /// Counts messages from here on: somewhere else than before, if the robot's program was started anew.
+    pub fn count_from(&mut self, counter: u32) {
+        self.counter = counter;
+    }
 }
 
 /// The match itself, which tells robots in other processes what they sense. Nobody's broadcasts reach it.

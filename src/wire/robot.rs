@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use bevy::prelude::*;
 use serde::Serialize;
@@ -25,7 +25,7 @@ use crate::sense::{Odometry, Percepts};
 use crate::tcm::external_message::Entity as Party;
 use crate::tcm::fragments::{Assembly, USUAL_DATAGRAM, cut};
 use crate::tcm::udp::UdpConn;
-use crate::tcm::{Address, Addresses, Data, ExternalMessage, HOST, Incoming, Module, party};
+use crate::tcm::{Address, Addresses, Data, ExternalMessage, HOST, Incoming, Module, Tcm, party};
 use crate::teamwork::Role;
 use crate::world_model::WorldModel;
 
@@ -51,6 +51,12 @@ pub struct RobotReport {
     pub datagrams: CarrierFigures,
 }
 
+/// A counter that the last process of this robot has not used: milliseconds on the wall's clock.
+fn unused_counter() -> u32 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    since.map_or(0, |since| since.as_millis() as u32)
+}
+
 impl RobotProcess {
     /// A robot of a match at this address.
     ///
@@ -65,7 +71,12 @@ impl RobotProcess {
         let conns = BTreeMap::from([(id, UdpConn::bind(bind)?)]);
         app.insert_resource(UdpCarrier::of(conns));
         let sensors = Assembly::new(plan.tcm.limits(&Clock::default()));
-        Ok(RobotProcess { app, id, entity, sensors, counter: 0 })
+        let counter = unused_counter();
+        if let Some(mut tcm) = app.world_mut().get_mut::<Tcm>(entity) {
+            tcm.count_from(counter);
+        }
+        // Commands count from far away, since they come from the same entity.
+        Ok(RobotProcess { app, id, entity, sensors, counter: counter.wrapping_add(1 << 31) })
     }
 
     /// Plays until the match is over, or nothing has been heard of it for long.
