@@ -104,12 +104,24 @@ impl MatchOptions {
 /// The radio that is none: team messages go by UDP.
 const UDP: &str = "udp";
 
+/// What is worth a line goes to the standard error stream; the window has its own log.
+fn log_to_stderr() {
+    use bevy::log::Level;
+    use bevy::log::tracing_subscriber::fmt;
+    let subscriber = fmt().with_max_level(Level::INFO).with_target(false).without_time();
+    // Whoever has set another log before keeps it.
+    let _ = subscriber.with_writer(std::io::stderr).try_init();
+}
+
 /// Bad input.
 const BAD_INPUT: u8 = 2;
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
+    if !matches!(cli.command, None | Some(Command::Play(_))) {
+        log_to_stderr();
+    }
     let done = AssetFolder::find(cli.assets.as_deref()).and_then(|assets| match cli.command {
         None => play::Play::default().run(&assets),
         Some(Command::Play(play)) => play.run(&assets),
