@@ -58,7 +58,7 @@ pub fn simulation(app: &mut App) {
         schedule::plugin,
         physics::plugin,
         script::plugin,
-        (tcm::plugin, radio::plugin, wire::plugin),
+        (tcm::plugin, messages::plugin, radio::plugin, wire::plugin),
         sense::plugin,
         world_model::plugin,
         teamwork::plugin,
@@ -76,7 +76,7 @@ pub fn simulation(app: &mut App) {
 pub fn mind(app: &mut App) {
     app.add_plugins((
         schedule::plugin,
-        (tcm::plugin, wire::plugin),
+        (tcm::plugin, messages::plugin, wire::plugin),
         world_model::plugin,
         teamwork::plugin,
         behaviour::plugin,

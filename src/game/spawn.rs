@@ -15,6 +15,7 @@ use crate::geometry::{Pose, Twist};
 use crate::handling::{Handling, KickIntent};
 use crate::head::{Head, HeadIntent};
 use crate::ids::{MatchEntity, RobotId};
+use crate::messages::Inbox;
 use crate::motor::{Contributions, MotorDice, SteeringIntent};
 use crate::perception::Memory;
 use crate::physics::register_bodies;
@@ -24,7 +25,7 @@ use crate::rng::Seed;
 use crate::robot::{DriveCommand, Robot, RobotBodies, RobotKind, Trailer, jaws};
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;
-use crate::tcm::{Inbox, Tcm, TcmClient, TcmSettings};
+use crate::tcm::{Tcm, TcmClient, TcmSettings};
 use crate::teamwork::{Booking, Role, Swapping, TeamPicture};
 use crate::world_model::WorldModel;
 

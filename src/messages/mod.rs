@@ -4,15 +4,20 @@
 //! [postcard](https://postcard.jamesmunns.com/wire-format): its fields in their order; `u8` as they are, larger integers and
 //! lengths as little-endian base 128, `f32` as four little-endian bytes, `bool` and variants as one byte.
 
-mod kind;
+mod inbox;
 
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-pub use kind::MessageKind;
+pub use inbox::{Inbox, Received};
 
 use crate::protocol::{b3p, role_swap};
+pub use crate::tcm::MessageKind;
 use crate::tcm::{Data, DataType, Module};
+
+pub(super) fn plugin(app: &mut App) {
+    inbox::plugin(app);
+}
 
 /// A message of one robot to its team mates. The first three are those of the Hammerheads' figure 3, with its fields.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::*;
 use crate::ids::Team::{Away, Home};
-use crate::messages::{HaveBall, Message};
+use crate::messages::{self, HaveBall, Inbox, Message, Received};
 use crate::perception::fixture::{cye, perfect_radio};
 use crate::rng::Seed;
 use crate::robot::Ailment;
 use crate::schedule;
-use crate::tcm::{self, Addresses, Directory, Inbox, Received, Tcm, TcmClient, TcmSettings};
+use crate::tcm::{self, Addresses, Directory, Tcm, TcmClient, TcmSettings};
 
 fn home(number: u8) -> RobotId {
     RobotId::new(Home, number)
@@ -18,7 +18,7 @@ fn home(number: u8) -> RobotId {
 /// Robots 0 to 2 of home and 0 of away, 1 m apart, with this radio.
 fn app(radio: Radio) -> App {
     let mut app = App::new();
-    app.add_plugins((schedule::plugin, tcm::plugin, plugin));
+    app.add_plugins((schedule::plugin, tcm::plugin, messages::plugin, plugin));
     app.insert_resource(Channel::new(Seed(1), radio));
     app.init_resource::<Conditions>().init_resource::<FaultRules>().init_resource::<Traffic>();
     app.init_resource::<MessageCounts>().init_resource::<RadioLog>();

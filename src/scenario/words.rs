@@ -92,7 +92,11 @@ impl Display for Condition {
             }
             Condition::Goes(robot) => write!(f, "{robot} goes for the ball"),
             Condition::Going { team, at_least, at_most } => {
-                write!(f, "{} of {team} go for the ball", limits("at least", *at_least, "at most", *at_most, ""))
+                write!(
+                    f,
+                    "{} of {team} go for the ball",
+                    limits("at least", *at_least, "at most", *at_most, "")
+                )
             }
             Condition::Booker { robot, seen_by: None } => {
                 write!(f, "{robot} has booked the ball in the eyes of its team")

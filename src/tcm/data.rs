@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 
 use super::external_message::{self, DataType, Module};
-use crate::messages::MessageKind;
+use super::kind::MessageKind;
 use crate::protocol::role_swap::Sequence;
 
 /// A type of data that modules exchange.

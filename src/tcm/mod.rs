@@ -10,7 +10,8 @@ mod data;
 pub mod directory;
 pub mod external_message;
 pub mod fragments;
-mod mailbox;
+mod kind;
+mod outgoing;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -23,19 +24,18 @@ use bevy::prelude::*;
 pub use data::{Arrived, Data, RegisterData, Registered, Registry};
 pub use directory::Directory;
 pub use external_message::{Address, DataType, ExternalMessage, Module};
-pub use mailbox::{Inbox, Received, TcmClient};
+pub use kind::MessageKind;
+pub use outgoing::TcmClient;
 pub use settings::TcmSettings;
 
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
-use crate::messages::{BallReport, Book, GoalieNews, HaveBall, MessageKind, Position, Text, Values};
-use crate::protocol::role_swap::{self, Sequence};
-use crate::robot::Robot;
+use crate::protocol::role_swap::Sequence;
 use crate::schedule::{Tick, TickSystems};
 use counters::TypeCounters;
 use external_message::Entity as Party;
 use fragments::{Assembly, cut};
-use mailbox::{Outgoing, put_into_inbox};
+use outgoing::Outgoing;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Registry>()
@@ -44,21 +44,6 @@ pub(super) fn plugin(app: &mut App) {
         .init_resource::<Addresses>()
         .configure_sets(Tick, TcmSystems::Receive.in_set(TickSystems::Deliver))
         .configure_sets(Tick, TcmSystems::Send.in_set(TickSystems::Transmit))
-        .register_data::<Position>()
-        .register_data::<HaveBall>()
-        .register_data::<GoalieNews>()
-        .register_data::<role_swap::Message>()
-        .register_data::<Values>()
-        .register_data::<Book>()
-        .register_data::<BallReport>()
-        .register_data::<Text>()
-        .add_observer(put_into_inbox::<Position>)
-        .add_observer(put_into_inbox::<HaveBall>)
-        .add_observer(put_into_inbox::<GoalieNews>)
-        .add_observer(put_into_inbox::<role_swap::Message>)
-        .add_observer(put_into_inbox::<Values>)
-        .add_observer(put_into_inbox::<Book>)
-        .add_observer(put_into_inbox::<BallReport>)
         .add_systems(Tick, receive_messages.in_set(TcmSystems::Receive))
         .add_systems(Tick, send_messages.in_set(TcmSystems::Send));
 }
@@ -136,7 +121,7 @@ pub fn as_robot(party: Party) -> Option<RobotId> {
     }
 }
 
-type Listening<'a> = (Entity, &'a RobotId, &'a Robot, &'a mut Inbox, &'a mut Tcm);
+type Listening<'a> = (Entity, &'a RobotId, &'a mut Tcm);
 
 /// Puts messages together and calls those who wait for their types.
 fn receive_messages(
@@ -146,17 +131,13 @@ fn receive_messages(
     mut commands: Commands,
     mut robots: Query<Listening>,
 ) {
-    for (_, _, robot, mut inbox, mut tcm) in &mut robots {
-        let was_read = clock.tick > 0 && robot.is_due(clock.tick - 1);
-        if (was_read || !robot.condition.hears()) && !inbox.0.is_empty() {
-            inbox.0.clear();
-        }
+    for (_, _, mut tcm) in &mut robots {
         let expired = tcm.assembly.expire(clock.tick);
         tcm.counters.expired(expired);
     }
     for (to, datagram) in incoming.0.drain(..) {
         let robot = robots.iter_mut().find(|(_, id, ..)| **id == to);
-        let Some((entity, id, _, _, mut tcm)) = robot else { continue };
+        let Some((entity, id, mut tcm)) = robot else { continue };
         let Some(message) = tcm.take_in(&datagram, party(*id), clock.tick) else { continue };
         let (module, data_type) = (message.source.module, message.data_type);
         match registry.get(data_type) {

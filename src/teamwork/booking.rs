@@ -7,13 +7,13 @@ use super::picture::TeamPicture;
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::messages::{Book, Message};
+use crate::messages::{Book, Inbox, Message};
 use crate::protocol::b3p::{B3p, Distance, Input, Settings};
 use crate::protocol::role_swap::Number;
 use crate::robot::{OffPitch, Robot};
 use crate::strategy::teamwork::{BallBooking, Mechanism};
 use crate::strategy::{Strategies, Strategy};
-use crate::tcm::{Inbox, TcmClient};
+use crate::tcm::TcmClient;
 use crate::world_model::WorldModel;
 
 /// A robot's side of the ball booking.

@@ -5,10 +5,9 @@ use bevy::prelude::*;
 use super::picture::TeamPicture;
 use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::messages::{Message, Values};
+use crate::messages::{Inbox, Message, Received, Values};
 use crate::robot::Robot;
 use crate::strategy::Strategies;
-use crate::tcm::{Inbox, Received};
 
 /// A goalie of which nothing was heard for so long is taken to be back, s.
 const GOALIE_MEMORY: f32 = 20.0;

@@ -11,7 +11,7 @@ use crate::ball::Ball;
 use crate::clock::Clock;
 use crate::geometry::angle;
 use crate::ids::RobotId;
-use crate::messages::Message;
+use crate::messages::{Inbox, Message};
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::{
     Assignment, Effect, Hardened, Input, Number, Outcome, Paper, Phase, Reassignment, RoleIndex, RoleSwap,
@@ -21,7 +21,7 @@ use crate::rng::{Dice, Seed};
 use crate::robot::{OffPitch, Recall, Robot};
 use crate::strategy::teamwork::{Mechanism, Protocol, RoleSwapSpec, Timers};
 use crate::strategy::{Strategies, Strategy};
-use crate::tcm::{Inbox, TcmClient};
+use crate::tcm::TcmClient;
 use crate::world_model::WorldModel;
 
 /// A robot's part in role swaps.

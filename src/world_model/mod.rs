@@ -19,14 +19,13 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::handling::Handling;
 use crate::ids::{RobotId, Team};
-use crate::messages::Message;
+use crate::messages::{Inbox, Message};
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::Number;
 use crate::robot::{OffPitch, Robot};
 use crate::schedule::{Tick, TickSystems};
 use crate::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, should_be_seen};
 use crate::strategy::Strategies;
-use crate::tcm::Inbox;
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));

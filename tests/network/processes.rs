@@ -90,8 +90,8 @@ fn is_refusal(error: std::io::Error) -> bool {
 /// Writes the addresses of a match to a file.
 fn write_addresses(plan: &MatchPlan, folder: &Path) -> std::path::PathBuf {
     let file = folder.join("addresses.ron");
-    let lines =
-        plan.directory().entries().map(|(who, at)| format!("{:?}: {:?},\n", who.to_string(), at.to_string()));
+    let directory = plan.directory();
+    let lines = directory.entries().map(|(who, at)| format!("\"{who}\": \"{at}\",\n"));
     std::fs::write(&file, format!("{{\n{}}}\n", lines.collect::<String>())).expect("the file is written");
     file
 }

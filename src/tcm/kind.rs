@@ -39,7 +39,7 @@ impl MessageKind {
         MessageKind::Other,
     ];
 
-    pub(super) fn of_role_swap(message: &role_swap::Message) -> MessageKind {
+    pub fn of_role_swap(message: &role_swap::Message) -> MessageKind {
         match message {
             role_swap::Message::Lock { .. } => MessageKind::Lock,
             role_swap::Message::AckLock { .. } => MessageKind::AckLock,

@@ -1,12 +1,12 @@
-//! Between a robot's modules and its TCM: the client that they put data into, and the inbox of what its teamwork has heard.
+//! Between a robot's modules and its TCM: the client that they put data into.
 
 use bevy::prelude::*;
 
 use super::client::{QueueRule, Queues};
-use super::data::{Arrived, Data};
+use super::data::Data;
 use super::external_message::{DataType, Entity as Party, Module};
+use super::kind::MessageKind;
 use crate::ids::RobotId;
-use crate::messages::{Message, MessageKind};
 use crate::protocol::role_swap::{Number, Sequence};
 
 /// A robot's proxy of the TCM: it keeps what modules want to say until the TCM is ready for it.
@@ -63,30 +63,5 @@ impl TcmClient {
     /// The queue of each module: items that wait, and its counters.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = (Module, usize, super::client::QueueCounters)> {
         self.queues.rows()
-    }
-}
-
-/// What a robot has heard from its team since its last decision, in the order of arrival; written by the Deliver stage.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Inbox(pub Vec<Received>);
-
-/// A message that arrived.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Received {
-    pub from: Number,
-    pub message: Message,
-}
-
-/// The callback of the teamwork's modules: what a team mate says waits in the inbox for the robot's next decision.
-pub(super) fn put_into_inbox<T: Data + Into<Message>>(
-    arrived: On<Arrived<T>>,
-    mut robots: Query<(&RobotId, &mut Inbox)>,
-) {
-    let Ok((id, mut inbox)) = robots.get_mut(arrived.entity) else { return };
-    if let Party::Robot { team, number } = arrived.from
-        && team == id.team as u8
-        && number != id.number
-    {
-        inbox.0.push(Received { from: number, message: arrived.data.clone().into() });
     }
 }
