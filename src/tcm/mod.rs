@@ -159,6 +159,9 @@ fn send_messages(directory: Res<Addresses>, mut on_air: ResMut<OnAir>, mut robot
         return;
     }
     for (id, mut client, mut tcm) in robots.iter_mut().sort::<&RobotId>() {
+        for (module, data_type) in client.dropped.drain(..) {
+            tcm.counters.queue_full(module, data_type);
+        }
         let takes = tcm.settings.takes;
         for outgoing in client.queues.take(takes) {
             tcm.send(*id, outgoing, &directory.0, &mut on_air);

@@ -14,6 +14,8 @@ use crate::protocol::role_swap::{Number, Sequence};
 pub struct TcmClient {
     team: u8,
     pub(super) queues: Queues<Outgoing>,
+    /// What found no room in its queue, until it is counted.
+    pub(super) dropped: Vec<(Module, DataType)>,
 }
 
 /// Data that wait to be sent.
@@ -29,7 +31,7 @@ pub(super) struct Outgoing {
 
 impl TcmClient {
     pub fn new(robot: RobotId, rule: QueueRule) -> TcmClient {
-        TcmClient { team: robot.team as u8, queues: Queues::new(rule) }
+        TcmClient { team: robot.team as u8, queues: Queues::new(rule), dropped: Vec::new() }
     }
 
     /// To every team mate, and to the computers that listen.
@@ -52,7 +54,8 @@ impl TcmClient {
             sequence: data.sequence(),
             bytes: data.serialise(),
         };
-        self.queues.push(T::MODULE, outgoing);
+        let dropped = self.queues.push(T::MODULE, outgoing);
+        self.dropped.extend(dropped.map(|outgoing| (outgoing.module, outgoing.data_type)));
     }
 
     /// Forgets what waits, as when the robot is switched off.

@@ -9,8 +9,8 @@ use super::FrameSystems;
 use super::dialogues::Open;
 use super::state::Pace;
 use crate::clock::Clock;
+use crate::game::advance;
 use crate::referee::{MatchState, Phase};
-use crate::schedule::Tick;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_schedule(AfterTick)
@@ -36,7 +36,7 @@ fn pass_time(world: &mut World) {
     let due = world.resource_mut::<Pace>().take_ticks(elapsed, dt);
     let began = Instant::now();
     for _ in 0..due {
-        world.run_schedule(Tick);
+        advance(world);
         world.run_schedule(AfterTick);
         if began.elapsed() > FRAME_BUDGET || is_over(world) {
             break;

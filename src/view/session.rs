@@ -12,6 +12,7 @@ use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan, start_match};
 use crate::ids::Team;
 use crate::scenario::ScenarioPlan;
+use crate::wire;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Wish>()
@@ -123,6 +124,10 @@ impl Wanted {
 
 fn begin(world: &mut World, wanted: Wanted, (plan, scenario): Plans) {
     start_match(world, &plan);
+    if let Err(error) = wire::open(world, &plan).and_then(|()| wire::greet(world)) {
+        wire::close(world);
+        world.resource_mut::<Trouble>().0 = Some(error.to_string());
+    }
     let dt = world.resource::<Clock>().dt;
     world.insert_resource(Expectations::of(scenario.as_ref().map(|plan| &plan.scenario), dt));
     world.insert_resource(Piloted(plan.pilot));

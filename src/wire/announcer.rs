@@ -29,11 +29,13 @@ impl Announcer {
         Ok(Announcer { conn, to, packet_number: 0 })
     }
 
-    pub fn announce(&mut self, world: &mut World) {
-        let clock = *world.resource::<Clock>();
-        if !clock.is_due(HZ) {
-            return;
+    pub fn announce_when_due(&mut self, world: &mut World) {
+        if world.resource::<Clock>().is_due(HZ) {
+            self.announce(world);
         }
+    }
+
+    pub fn announce(&mut self, world: &mut World) {
         let robots: Vec<RobotId> =
             world.resource::<Record>().driven.iter().map(|(robot, _)| *robot).collect();
         let standing = standing(world.resource::<MatchState>(), &robots, self.packet_number);

@@ -17,7 +17,7 @@ use crate::schedule::{Tick, TickSystems};
 use crate::tcm::external_message::Entity as Party;
 use crate::tcm::fragments::Header;
 use crate::tcm::udp::{UdpConn, UdpError};
-use crate::tcm::{Addresses, Datagram, Directory, Incoming, OnAir, TcmSystems, as_robot, party};
+use crate::tcm::{Addresses, Datagram, Directory, HOST, Incoming, OnAir, TcmSystems, as_robot, party};
 
 use super::WireError;
 
@@ -100,9 +100,10 @@ impl UdpCarrier {
         directory: &Directory,
     ) -> Option<(Party, Header)> {
         let known = Header::read(bytes).ok().map(|(header, _)| (header.source.entity, header));
+        // Tools may speak from anywhere; robots and the match itself from where the directory has them.
         let sender = known.filter(|(source, _)| match source {
-            Party::Robot { .. } => directory.entity_at(from) == Some(*source),
-            _ => true,
+            Party::Computer(_) if *source != HOST => true,
+            _ => directory.entity_at(from) == Some(*source),
         });
         match sender {
             Some((Party::Robot { .. }, _)) => self.figures.received += 1,

@@ -130,7 +130,7 @@ pub fn exchange(world: &mut World) {
             remote.exchange(world);
         }
         if let Some(announcer) = &mut wires.announcer {
-            announcer.announce(world);
+            announcer.announce_when_due(world);
         }
     });
 }
@@ -140,6 +140,9 @@ pub fn finish(world: &mut World) {
     with_wires(world, |world, wires| {
         if let Some(remote) = &mut wires.remote {
             remote.finish(world);
+        }
+        if let Some(announcer) = &mut wires.announcer {
+            announcer.announce(world);
         }
     });
     if world.contains_resource::<UdpCarrier>() {

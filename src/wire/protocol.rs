@@ -19,8 +19,10 @@ pub(super) fn plugin(app: &mut App) {
 /// What a robot senses, and what it was told by the referee; once a tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensors {
-    /// The tick that is over.
+    /// The tick that the answer is for.
     pub tick: u64,
+    /// Whether the match has begun; until then the robot only says that it is there.
+    pub begun: bool,
     /// The newest camera frame.
     pub frame: Option<Frame>,
     pub odometry: Pose,

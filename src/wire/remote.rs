@@ -32,8 +32,8 @@ use crate::world_model::{BallBelief, WorldModel};
 const PATIENCE: Duration = Duration::from_millis(200);
 /// How long a match waits for its robots before it begins.
 const GREETING: Duration = Duration::from_secs(20);
-/// A robot that has not answered for so many ticks stands still.
-const SILENCE: u64 = 30;
+/// A robot that has not answered for so many ticks stands still, and no tick waits for it until it answers again.
+const SILENCE: u64 = 10;
 
 /// What became of the packets to and from one remote robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -55,6 +55,7 @@ pub(super) struct RemoteRobots {
     conn: UdpConn,
     assembly: Assembly,
     counter: u32,
+    begun: bool,
     robots: BTreeMap<RobotId, Remote>,
 }
 
@@ -63,6 +64,12 @@ struct Remote {
     figures: RemoteFigures,
     /// The tick of the last answer.
     last: Option<u64>,
+}
+
+impl Remote {
+    fn is_silent(&self, tick: u64) -> bool {
+        self.last.is_none_or(|last| last + SILENCE < tick)
+    }
 }
 
 /// The robots' own decisions are not made here any more.
@@ -90,6 +97,7 @@ impl RemoteRobots {
             conn: UdpConn::bind(host)?,
             assembly: Assembly::new(plan.tcm.limits(&Clock::default())),
             counter: 0,
+            begun: false,
             robots: robots.iter().copied().map(remote).collect::<Result<_, WireError>>()?,
         })
     }
@@ -109,6 +117,7 @@ impl RemoteRobots {
                 return Err(WireError::Silent { robot, address: remote.address });
             }
         }
+        self.begun = true;
         for remote in self.robots.values_mut() {
             let robot = remote.figures.robot;
             remote.figures = RemoteFigures { robot, told: 0, answered: 0, missed: 0, sent: 0, received: 0 };
@@ -121,16 +130,20 @@ impl RemoteRobots {
         let tick = world.resource::<Clock>().tick;
         self.tell(world, tick);
         let begin = Instant::now();
-        let mut awaited: Vec<RobotId> = self.robots.keys().copied().collect();
-        while !awaited.is_empty() {
-            let left = PATIENCE.saturating_sub(begin.elapsed());
-            let Some((robot, command)) = self.hear(tick, left) else { break };
-            if command.tick == tick && awaited.contains(&robot) {
-                awaited.retain(|other| *other != robot);
+        let mut open: Vec<RobotId> = self.robots.keys().copied().collect();
+        loop {
+            let is_awaited = |robot: &RobotId| !self.robots[robot].is_silent(tick) || !self.begun;
+            let patience = if open.iter().any(is_awaited) { PATIENCE } else { Duration::ZERO };
+            let left = patience.saturating_sub(begin.elapsed());
+            let Some((robot, command)) = self.hear(left) else { break };
+            if command.tick == tick && open.contains(&robot) {
+                open.retain(|other| *other != robot);
                 self.obey(world, robot, &command);
+            } else if let Some(remote) = self.robots.get_mut(&robot) {
+                remote.last = remote.last.max(Some(command.tick.min(tick)));
             }
         }
-        for robot in awaited {
+        for robot in open {
             self.miss(world, robot, tick);
         }
     }
@@ -141,6 +154,7 @@ impl RemoteRobots {
             let Some(remote) = self.robots.get_mut(id) else { continue };
             let sensors = Sensors {
                 tick,
+                begun: self.begun,
                 frame: percepts.frame.clone(),
                 odometry: odometry.pose,
                 speed: odometry.speed,
@@ -173,12 +187,12 @@ impl RemoteRobots {
     }
 
     /// The next command of one of our robots, from the address where it should be.
-    fn hear(&mut self, tick: u64, patience: Duration) -> Option<(RobotId, Command)> {
+    fn hear(&mut self, patience: Duration) -> Option<(RobotId, Command)> {
         let begin = Instant::now();
         loop {
             let left = patience.saturating_sub(begin.elapsed());
             let (from, datagram) = self.conn.wait(left).ok()??;
-            let Ok(Some(message)) = self.assembly.accept(tick, datagram) else { continue };
+            let Ok(Some(message)) = self.assembly.accept(0, datagram) else { continue };
             let Some(robot) = as_robot(message.source.entity) else { continue };
             let is_there = self.robots.get(&robot).is_some_and(|remote| remote.address == from);
             if let Some(command) = Command::unserialise(&message.data).filter(|_| is_there)
@@ -217,7 +231,7 @@ impl RemoteRobots {
     fn miss(&mut self, world: &mut World, robot: RobotId, tick: u64) {
         let Some(remote) = self.robots.get_mut(&robot) else { return };
         remote.figures.missed += 1;
-        if remote.last.is_none_or(|last| last + SILENCE < tick)
+        if remote.is_silent(tick)
             && let Some(entity) = entity_of(world, robot)
         {
             world.entity_mut(entity).insert((

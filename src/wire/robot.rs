@@ -86,12 +86,14 @@ impl RobotProcess {
             if sensors.orders.state == RobotState::Finished {
                 break;
             }
-            self.feel(&sensors);
-            let world = self.app.world_mut();
-            world.run_schedule(Tick);
-            world.clear_trackers();
+            if sensors.begun {
+                self.feel(&sensors);
+                let world = self.app.world_mut();
+                world.run_schedule(Tick);
+                world.clear_trackers();
+                answered += 1;
+            }
             self.answer(from, sensors.tick);
-            answered += 1;
         }
         self.drain();
         RobotReport { robot: self.id, answered, datagrams: self.app.world().resource::<UdpCarrier>().figures }
