@@ -111,7 +111,7 @@ mod tests {
         };
         assert!((spread(&|gait| gait.left) - 0.02).abs() < 1e-3);
         assert!((spread(&|gait| gait.turn).to_degrees() - 2.0).abs() < 0.1);
-        assert!((spread(&|gait| gait.ahead - 0.4) - 0.02f32.hypot(0.05 * 0.4)).abs() < 1e-3);
+        assert!((spread(&|gait| gait.ahead - 0.4) - Vec2::new(0.02, 0.05 * 0.4).length()).abs() < 1e-3);
         assert_eq!(error.applied(Gait::default(), &NOISE, 0, 24), Gait::default());
     }
 

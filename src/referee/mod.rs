@@ -11,7 +11,6 @@ mod witness;
 use std::collections::VecDeque;
 
 use bevy::prelude::*;
-use bevy_rapier2d::prelude::RapierContextSimulation;
 
 pub use decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
 pub use orders::{Orders, RobotState};
@@ -24,10 +23,8 @@ pub use state::{MatchState, Phase, Removal};
 use crate::clock::Clock;
 use crate::gamecontroller::BoxNews;
 use crate::ids::RobotId;
-use crate::physics::Bodies;
-use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
-use witness::{Players, Scene, SeenBall};
+use witness::Ground;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Whistles>()
@@ -55,12 +52,9 @@ pub struct PenaltiesDue(pub Vec<RobotId>);
 
 pub(crate) fn judge(
     clock: Res<Clock>,
-    (pitch, book): (Res<Pitch>, Res<RuleBook>),
+    ground: Ground,
     (mut state, mut due): (ResMut<MatchState>, ResMut<PenaltiesDue>),
     (mut calls, mut whistles): (ResMut<Calls>, ResMut<Whistles>),
-    (bodies, simulation): (Bodies, Single<&RapierContextSimulation>),
-    ball: Single<SeenBall>,
-    players: Players,
     news: Option<Res<BoxNews>>,
 ) {
     calls.0.clear();
@@ -69,24 +63,14 @@ pub(crate) fn judge(
             calls.0.push(Decision::RobotRemoved { robot, reason: RemovalReason::Ordered });
         }
     }
-    if !state.refereed {
-        whistles.note(clock.tick, &calls.0);
-        return;
-    }
-    let (ball, ball_pose, ball_body) = *ball;
-    let laws = Laws { pitch: &pitch, book: &book, ball_radius: ball.kind.radius };
-    let scene = if book.watches_contacts() {
-        Scene::whole((ball_pose, ball_body), &players, &bodies, &simulation)
-    } else {
-        Scene::of_places(ball_pose.position, &players)
-    };
-    let (seen, dt) = (scene.observation(), f64::from(clock.dt));
-    match news {
-        None => referee(&laws, &seen, dt, &mut state, &mut calls.0),
-        Some(news) => {
-            if let Some(view) = &news.view {
-                follow(view, &laws, &seen, dt, &mut state, &mut calls.0);
-            }
+    if state.refereed {
+        let (laws, scene, dt) = (ground.laws(), ground.scene(), f64::from(clock.dt));
+        let view = news.as_ref().map(|news| news.view.as_ref());
+        match view {
+            None => referee(&laws, &scene.observation(), dt, &mut state, &mut calls.0),
+            Some(Some(view)) => follow(view, &laws, &scene.observation(), dt, &mut state, &mut calls.0),
+            // The box has not spoken yet.
+            Some(None) => {}
         }
     }
     whistles.note(clock.tick, &calls.0);

@@ -1,16 +1,19 @@
 //! What the referee can see besides places: who touches the ball, who pushes whom, who stands still.
 
 use bevy::ecs::query::QueryData;
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
 use smallvec::SmallVec;
 
-use super::rules::Observation;
+use super::rulebook::RuleBook;
+use super::rules::{Laws, Observation};
 use crate::ball::Ball;
 use crate::geometry::{Pose, Twist};
 use crate::handling::Handling;
 use crate::ids::RobotId;
 use crate::physics::{Bodies, touch};
+use crate::pitch::Pitch;
 use crate::robot::{DriveCommand, OffPitch, RobotBodies};
 
 /// A robot as the referee sees it.
@@ -24,12 +27,41 @@ pub struct Player {
     handling: &'static Handling,
 }
 
-pub(super) type Players<'w, 's> = Query<'w, 's, Player, Without<OffPitch>>;
+type Players<'w, 's> = Query<'w, 's, Player, Without<OffPitch>>;
+type SeenBall = (&'static Ball, &'static Pose, &'static RapierRigidBodyHandle);
+
+/// All that the referee looks at.
+#[derive(SystemParam)]
+pub(crate) struct Ground<'w, 's> {
+    pitch: Res<'w, Pitch>,
+    book: Res<'w, RuleBook>,
+    bodies: Bodies<'w, 's>,
+    simulation: Single<'w, 's, &'static RapierContextSimulation>,
+    ball: Single<'w, 's, SeenBall>,
+    players: Players<'w, 's>,
+}
+
+impl Ground<'_, '_> {
+    pub(super) fn laws(&self) -> Laws<'_> {
+        let (ball, ..) = *self.ball;
+        Laws { pitch: &self.pitch, book: &self.book, ball_radius: ball.kind.radius }
+    }
+
+    /// Contacts and motion only where a rule asks for them.
+    pub(super) fn scene(&self) -> Scene {
+        let (_, pose, body) = *self.ball;
+        if self.book.watches_contacts() {
+            Scene::whole((pose, body), &self.players, &self.bodies, &self.simulation)
+        } else {
+            Scene::of_places(pose.position, &self.players)
+        }
+    }
+}
 
 /// Everything that happens between bodies.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scene {
-    pub ball: Vec2,
+    ball: Vec2,
     robots: SmallVec<[(RobotId, Vec2); 8]>,
     touching: SmallVec<[RobotId; 4]>,
     held_by: Option<RobotId>,
@@ -44,7 +76,7 @@ const STILL: (f32, f32) = (0.02, 0.1);
 
 impl Scene {
     /// Places alone: all that the rules of walled pitches ask for.
-    pub fn of_places(ball: Vec2, players: &Players) -> Scene {
+    fn of_places(ball: Vec2, players: &Players) -> Scene {
         let mut robots: SmallVec<[(RobotId, Vec2); 8]> =
             players.iter().map(|player| (*player.id, player.pose.position)).collect();
         robots.sort_unstable_by_key(|(id, _)| *id);
@@ -52,7 +84,7 @@ impl Scene {
     }
 
     /// Also contacts and motion.
-    pub fn whole(
+    fn whole(
         ball: (&Pose, &RapierRigidBodyHandle),
         players: &Players,
         bodies: &Bodies,
@@ -93,6 +125,3 @@ impl Scene {
         }
     }
 }
-
-/// The ball as the referee sees it.
-pub(super) type SeenBall<'a> = (&'a Ball, &'a Pose, &'a RapierRigidBodyHandle);
