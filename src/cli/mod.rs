@@ -104,11 +104,13 @@ impl MatchOptions {
 /// The radio that is none: team messages go by UDP.
 const UDP: &str = "udp";
 
+/// Rapier warns of a setting that is meant.
+const LOGGED: &str = "info,bevy_rapier2d=error";
+
 /// What is worth a line goes to the standard error stream; the window has its own log.
 fn log_to_stderr() {
-    use bevy::log::Level;
     use bevy::log::tracing_subscriber::fmt;
-    let subscriber = fmt().with_max_level(Level::INFO).with_target(false).without_time();
+    let subscriber = fmt().with_env_filter(LOGGED).with_target(false).without_time();
     // Whoever has set another log before keeps it.
     let _ = subscriber.with_writer(std::io::stderr).try_init();
 }

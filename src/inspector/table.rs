@@ -35,7 +35,7 @@ pub fn heading(ui: &mut Ui, words: &[&str]) {
 
 /// A row of a name and one line of text beside it, which is cut off where the panel ends.
 pub fn line(ui: &mut Ui, name: &str, text: impl Into<WidgetText>) -> Response {
-    const NAME: f32 = 78.0;
+    const NAME: f32 = 86.0;
     let (rect, response) = space(ui);
     let weak = egui::RichText::new(name).color(ui.visuals().weak_text_color());
     paint_name(ui, rect, weak.into(), NAME);

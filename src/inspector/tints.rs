@@ -27,7 +27,7 @@ pub fn kind(kind: Kind) -> Color {
 /// The colour of a robot's number among its team mates, where it tells who has booked the ball.
 pub fn number(number: u8) -> Color {
     const COLOURS: [u32; 8] =
-        [0x8E_B8_E5, 0xE8_C0_6A, 0x9C_CF_8E, 0xE0_8F_7A, 0xB7_A3_E0, 0x7F_C9_C0, 0xD7_D7_D2, 0xC9_8F_B4];
+        [0x8E_B8_E5, 0xE6_E0_8A, 0x9C_CF_8E, 0xC9_A2_7E, 0xB7_A3_E0, 0x7F_C9_C0, 0xD7_D7_D2, 0xC9_8F_B4];
     let [_, red, green, blue] = COLOURS[usize::from(number) % COLOURS.len()].to_be_bytes();
     Color::srgb_u8(red, green, blue)
 }

@@ -161,7 +161,9 @@ fn approach_fit(
     if !sight.fitted {
         return;
     }
-    let waiting = waiting.iter().map(|(pose, robot)| (pose.position, extent(&robot.kind) + BENCH));
+    // Those beside an open pitch wait far out; their labels come to the edge instead.
+    let waiting = (waiting.iter().filter(|_| !is_open(&pitch)))
+        .map(|(pose, robot)| (pose.position, extent(&robot.kind) + BENCH));
     let goal = sight.fit(zone_to_show(&pitch, waiting));
     let share = if sight.settled { 1.0 - bevy::math::ops::exp(-APPROACH * time.delta_secs()) } else { 1.0 };
     let settled = true;

@@ -47,6 +47,10 @@ const NEAR: f32 = 150.0;
 const RINGS: f32 = SELECTED + 0.08;
 /// Share of a robot's reach around the middle of each of its bodies that labels keep off.
 const BODY: f32 = 0.6;
+/// The smallest plate that a number can be read on, and how near to the edge of the pitch's area a robot is told that waits
+/// out of sight, in points.
+const PLATE: f32 = 13.0;
+const EDGE: f32 = 14.0;
 /// Height of a number, as a share of its plate's.
 const NUMBER: f32 = 0.8;
 const LARGEST_NUMBER: f32 = 34.0;
@@ -110,7 +114,7 @@ fn write_on_pitch(
     let ctx = contexts.ctx_mut()?;
     let layer = egui::LayerId::new(egui::Order::Background, egui::Id::new("text on the pitch"));
     let painter = ctx.layer_painter(layer).with_clip_rect(area.0);
-    placed.clear();
+    placed.clear(area.0);
     for (shown, plate) in &shown {
         let reach = match (ball.get(shown.body), plate, robots.get(shown.body)) {
             (Ok(ball), ..) => ball.kind.radius,
@@ -128,19 +132,25 @@ fn write_on_pitch(
     let mut labelled: Vec<_> = shown.iter().filter_map(|(drawn, plate)| Some((*drawn, *plate?))).collect();
     labelled.sort_unstable_by_key(|(_, plate)| (selected.0 != Some(plate.of), plate.of));
     for (drawn, plate) in labelled {
-        let at = sight.to_screen(drawn.pose.to_field(plate.middle));
-        let number = plate.of.number.to_string();
-        let size = (2.0 * NUMBER * plate.half * sight.scale).clamp(SMALL, LARGEST_NUMBER).round();
-        painter.text(at, egui::Align2::CENTER_CENTER, number, font(size), paint(colours::ROBOT));
+        let mut at = sight.to_screen(drawn.pose.to_field(plate.middle));
         let unit = shown.iter().find(|(shown, _)| shown.robot == Some(plate.of)).map(|(unit, _)| unit);
         let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else {
             continue;
         };
-        let middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
+        let mut middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
+        let mut reach = plate.reach * sight.scale;
+        let edge = area.0.shrink(EDGE);
+        if robot.off_pitch && !edge.contains(middle) {
+            // Robots that wait out of sight are told at the edge.
+            (at, middle, reach) = (edge.clamp(at), edge.clamp(middle), PLATE);
+        }
+        write_number(&painter, at, &plate, sight.scale);
         let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
         let cut_off = conditions.cut_off.contains(robot.id);
         let signs = Sign::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
-        let corner = middle + egui::vec2(0.8, -0.8) * plate.reach * sight.scale;
+        let corner = edge.clamp(middle + egui::vec2(0.8, -0.8) * reach);
+        let corner =
+            if corner.distance(at) < 1.5 * PLATE { at + egui::vec2(1.5 * PLATE, 0.0) } else { corner };
         for (place, sign) in signs.iter().enumerate() {
             sign.paint(&painter, corner + egui::vec2((2.0 * signs::RADIUS + 2.0) * place as f32, 0.0));
         }
@@ -153,13 +163,25 @@ fn write_on_pitch(
         let galley = lay_out(&painter, &lines);
         let choice = kept.choices.entry(plate.of).or_default();
         let room = galley.size() + 2.0 * PADDING;
-        let reach = if is_selected || robot.piloted { RINGS * plate.reach } else { plate.reach };
-        let (rect, taken) = placed.place(middle, reach * sight.scale + 4.0, room, *choice);
+        let reach = if is_selected || robot.piloted { RINGS * reach } else { reach };
+        let (rect, taken) = placed.place(middle, reach + 4.0, room, *choice);
         *choice = taken;
         painter.rect_filled(rect, 4.0, egui::Color32::from_black_alpha(150));
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
     }
     Ok(())
+}
+
+/// A robot's number, on a plate of its own where the drawn one is too small for it or out of sight.
+fn write_number(painter: &egui::Painter, at: egui::Pos2, plate: &Plate, scale: f32) {
+    let drawn = 2.0 * plate.half * scale;
+    if drawn < PLATE || !painter.clip_rect().shrink(1.5 * EDGE).contains(at) {
+        let own = egui::Rect::from_center_size(at, egui::Vec2::splat(PLATE.max(drawn)));
+        painter.rect_filled(own, 2.0, paint(colours::team(plate.of.team)));
+    }
+    let size = (NUMBER * drawn).clamp(SMALL, LARGEST_NUMBER).round();
+    let number = plate.of.number.to_string();
+    painter.text(at, egui::Align2::CENTER_CENTER, number, font(size), paint(colours::ROBOT));
 }
 
 /// Room around a label's text, in points.

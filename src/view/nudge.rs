@@ -7,6 +7,8 @@ use egui::{Pos2, Rect, Vec2, vec2};
 /// What has been placed in this frame; whoever writes on the pitch asks it for room.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Placed {
+    /// Where labels are seen; everywhere, if not given.
+    bounds: Option<Rect>,
     /// Never covered.
     labels: Vec<Rect>,
     /// Covered only if there is no other place.
@@ -34,8 +36,9 @@ const PLACES: [Vec2; 8] = [
 ];
 
 impl Placed {
-    /// Begins a frame.
-    pub fn clear(&mut self) {
+    /// Begins a frame, in which labels are seen within these bounds.
+    pub fn clear(&mut self, bounds: Rect) {
+        self.bounds = Some(bounds);
         self.labels.clear();
         self.bodies.clear();
     }
@@ -43,6 +46,12 @@ impl Placed {
     /// Something that labels had better not cover.
     pub fn add_body(&mut self, body: Rect) {
         self.bodies.push(body);
+    }
+
+    /// Whether there is a place for a label that covers nothing.
+    pub fn has_room(&self, middle: Pos2, reach: f32, size: Vec2) -> bool {
+        let at = |way: Vec2| Rect::from_center_size(middle + way * (vec2(reach, reach) + size / 2.0), size);
+        PLACES.into_iter().any(|way| self.is_free(at(way)))
     }
 
     /// Finds a place for a label of a size around a robot whose outline reaches so far from its middle.
@@ -66,7 +75,8 @@ impl Placed {
     }
 
     fn is_apart(&self, rect: Rect) -> bool {
-        self.labels.iter().all(|other| !other.expand(GAP).intersects(rect))
+        let is_seen = self.bounds.is_none_or(|bounds| bounds.contains_rect(rect));
+        is_seen && self.labels.iter().all(|other| !other.expand(GAP).intersects(rect))
     }
 
     fn is_free(&self, rect: Rect) -> bool {
@@ -109,6 +119,23 @@ mod tests {
         for (i, a) in placed.labels.iter().enumerate() {
             assert!(placed.labels[..i].iter().all(|b| !a.intersects(*b)), "{a} in {:?}", placed.labels);
         }
+    }
+
+    #[test]
+    fn there_is_room_farther_off_where_a_crowd_is() {
+        let mut placed = Placed::default();
+        let middle = pos2(100.0, 100.0);
+        placed.add_body(Rect::from_center_size(middle, vec2(60.0, 60.0)));
+        assert!(!placed.has_room(middle, 5.0, SIZE));
+        assert!(placed.has_room(middle, 40.0, SIZE));
+    }
+
+    #[test]
+    fn a_label_stays_in_sight_if_it_can() {
+        let mut placed = Placed::default();
+        placed.clear(Rect::from_min_size(pos2(0.0, 0.0), vec2(200.0, 110.0)));
+        let (rect, choice) = placed.place(pos2(100.0, 100.0), 20.0, SIZE, Choice::default());
+        assert_eq!((choice, rect.center_bottom()), (Choice(1), pos2(100.0, 80.0)));
     }
 
     #[test]

@@ -27,9 +27,9 @@ pub const DRIVING_KEYS: [(&str, &str); 6] = [
     ("W S or Up Down", "Drive ahead or back"),
     ("A D or Left Right", "Turn left or right"),
     ("Q E", "Step to the left or right (on four legs)"),
-    ("Space", "Kick ahead, while you drive a robot that kicks"),
-    ("Z X", "Kick to the left or right (the same)"),
-    ("C, held", "Hold the ball under the chin (the same)"),
+    ("Space", "Kick ahead, while you drive four legs"),
+    ("Z X", "Kick to the left or right (on four legs)"),
+    ("C, held", "Hold the ball under the chin (on four legs)"),
 ];
 
 /// The robot under a person's hands.

@@ -178,7 +178,7 @@ fn show_head(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) -> 
 fn show_whose(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {
     let selected = heard.selected.0;
     ui.weak("Counters of");
-    let own = selected.map_or("the selected robot".into(), |robot| robot.to_string());
+    let own = selected.map_or("all, none selected".into(), |robot| robot.to_string());
     for (whose, name, tip) in [
         (Whose::Selected, own.as_str(), "The selected robot; all robots together while none is selected"),
         (Whose::Team(Team::Home), "home", "All robots of home together"),

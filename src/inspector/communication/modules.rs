@@ -53,7 +53,9 @@ pub fn show(ui: &mut egui::Ui, tally: &Tally, names: Names) {
 
 fn show_types(ui: &mut egui::Ui, tally: &Tally, names: Names) {
     let mut last: Option<Module> = None;
-    for ((module, data_type), count) in &tally.types {
+    let (used, idle): (Vec<_>, Vec<_>) =
+        tally.types.iter().partition(|(_, count)| **count != TypeCount::default());
+    for ((module, data_type), count) in used {
         let first = last.replace(*module) != Some(*module);
         let module = if first { module.to_string() } else { String::new() };
         row(ui, &TYPES, &cells(module, names(*data_type), count));
@@ -63,6 +65,10 @@ fn show_types(ui: &mut egui::Ui, tally: &Tally, names: Names) {
             .on_hover_text("Kinds of message that have no row, since there are too many");
     }
     row(ui, &TYPES, &cells("all".into(), String::new(), &tally.total()));
+    if !idle.is_empty() {
+        let idle: Vec<String> = idle.into_iter().map(|((_, data_type), _)| names(*data_type)).collect();
+        ui.label(RichText::new(format!("Registered and not used so far: {}", idle.join(", "))).weak());
+    }
     let strays = format!(
         "Besides: {} from strangers or for others, {} malformed, {} given up as incomplete",
         tally.foreign, tally.malformed, tally.expired

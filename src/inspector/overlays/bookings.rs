@@ -32,6 +32,9 @@ struct Line {
 /// Radius of the ring around a booked ball, in radii of the ball.
 const ROUND: f32 = 1.9;
 
+/// How far off its line a label is written, in points: nearest first, farther in a crowd.
+const OFF: [f32; 4] = [6.0, 20.0, 40.0, 70.0];
+
 impl Line {
     /// What a robot believes, if that has not expired.
     fn believed_by(robot: RobotId, machine: &B3p, tick: u64) -> Option<Line> {
@@ -134,7 +137,8 @@ pub(super) fn write(
         let room = galley.size() + 2.0 * PADDING;
         let middle = sight.to_screen(from.midpoint(to));
         let choice = &mut choices[team.index()];
-        let (rect, taken) = placed.place(middle, 6.0, room, *choice);
+        let free = OFF.into_iter().find(|off| placed.has_room(middle, *off, room));
+        let (rect, taken) = placed.place(middle, free.unwrap_or(OFF[0]), room, *choice);
         *choice = taken;
         painter.rect_filled(rect, 4.0, egui::Color32::from_black_alpha(150));
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);

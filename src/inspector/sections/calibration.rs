@@ -96,7 +96,11 @@ fn show(ui: &mut egui::Ui, knob: &Knob, values: &mut Values, file: &mut Values) 
         if !slider.dragged() {
             slider.on_hover_text(knob.tip);
         }
-        let unit = if knob.unit.is_empty() { String::new() } else { format!(" {}", knob.unit) };
+        let unit = match knob.unit {
+            "" => String::new(),
+            degrees if degrees.starts_with('°') => degrees.into(),
+            unit => format!(" {unit}"),
+        };
         let number = egui::DragValue::new(value)
             .range(least..=most)
             .speed((most - least) / 400.0)

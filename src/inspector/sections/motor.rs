@@ -146,7 +146,7 @@ fn outcome(ui: &mut egui::Ui, robot: &Looked) {
         }
         DriveCommand::Gait(gait) => {
             let [ahead, left] = [gait.ahead, gait.left].map(figures::speed);
-            let turn = gait.turn.to_degrees().round();
+            let turn = figures::fixed(gait.turn.to_degrees(), 0);
             table::line(ui, "legs", format!("{ahead} ahead, {left} to the left, {turn}°/s"));
         }
     }

@@ -61,14 +61,20 @@ fn speeds(ui: &mut egui::Ui, kind: &RobotKind, levers: &Levers) {
     let (ahead, second) = match kind.drive {
         Drive::Walker(walker) => {
             let ahead = x * if x >= 0.0 { walker.ahead } else { walker.back };
-            (ahead, format!("{} to the left", figures::speed(y * walker.aside)))
+            (ahead, format!("{} to the {}", figures::speed(y.abs() * walker.aside), side(y)))
         }
         Drive::Differential(drive) => {
-            let turn = figures::fixed(levers.pull.turn * drive.turn_rate, 0);
-            (x * drive.max_speed, format!("{turn} °/s to the left"))
+            let turn = levers.pull.turn;
+            let rate = figures::fixed(turn.abs() * drive.turn_rate, 0);
+            (x * drive.max_speed, format!("{rate}°/s to the {}", side(turn)))
         }
     };
-    ui.label(format!("{} ahead, {second}", figures::speed(ahead)));
+    let way = if ahead >= 0.0 { "ahead" } else { "back" };
+    ui.label(format!("{} {way}, {second}", figures::speed(ahead.abs())));
+}
+
+fn side(left: f32) -> &'static str {
+    if left >= 0.0 { "left" } else { "right" }
 }
 
 /// A lever that is drawn from left to right, in degrees; positive is left.
@@ -76,7 +82,12 @@ fn lever(ui: &mut egui::Ui, name: &str, value: &mut f32, most: f32, unit: &str) 
     ui.spacing_mut().slider_width = LEVER;
     ui.horizontal(|ui| {
         ui.add_sized([34.0, 18.0], egui::Label::new(name));
-        let slider = egui::Slider::new(value, most..=-most).fixed_decimals(0).suffix(unit.to_owned());
+        // A slider that rounds would take the rounding for a person's hand.
+        *value = value.round();
+        let slider = egui::Slider::new(value, most..=-most)
+            .fixed_decimals(0)
+            .custom_formatter(|value, _| figures::fixed(value as f32, 0))
+            .suffix(unit.to_owned());
         ui.add(slider)
     })
     .inner
@@ -85,7 +96,7 @@ fn lever(ui: &mut egui::Ui, name: &str, value: &mut f32, most: f32, unit: &str) 
 fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
     let most = kind.max_turn().to_degrees();
     let mut rate = levers.pull.turn * most;
-    let slider = lever(ui, "Turn", &mut rate, most, " °/s");
+    let slider = lever(ui, "Turn", &mut rate, most, "°/s");
     levers.pull.turn = rate / most;
     if slider.drag_stopped() {
         levers.pull.turn = 0.0;
