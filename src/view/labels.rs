@@ -97,6 +97,8 @@ fn lines(
 /// How long a robot is off the pitch yet.
 fn off_text(state: &MatchState, robot: RobotId) -> String {
     match state.removed.iter().find(|removal| removal.robot == robot) {
+        // A referee box, or whoever took it off, decides when it comes back.
+        Some(removal) if removal.seconds_left.is_infinite() => "taken off".into(),
         Some(removal) if removal.seconds_left > 0.0 => format!("off for {} s", removal.seconds_left.ceil()),
         _ => "waits to return".into(),
     }

@@ -148,7 +148,7 @@ fn spaced(name: &str) -> String {
 fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchState) {
     let off = state.removed.iter().find(|removal| removal.robot == robot);
     let more = match (off, orders.place) {
-        (Some(removal), _) if !removal.seconds_left.is_finite() => "off for good".into(),
+        (Some(removal), _) if !removal.seconds_left.is_finite() => "taken off".into(),
         (Some(removal), _) if removal.seconds_left > 0.0 => {
             format!("off for {} s", removal.seconds_left.ceil())
         }
