@@ -13,7 +13,7 @@ pub use inbox::{Inbox, Received};
 
 use crate::protocol::{b3p, role_swap};
 pub use crate::tcm::MessageKind;
-use crate::tcm::{Data, DataType, Module};
+use crate::tcm::{Data, DataType, Module, from_postcard, to_postcard};
 
 pub(super) fn plugin(app: &mut App) {
     inbox::plugin(app);
@@ -123,14 +123,12 @@ macro_rules! data {
             const NAME: &'static str = $name;
 
             fn serialise(&self) -> Vec<u8> {
-                // Fails for types of unknown length only, of which there are none here.
-                postcard::to_stdvec(self).unwrap_or_default()
+                to_postcard(self)
             }
 
             fn unserialise(bytes: &[u8]) -> Option<$type> {
-                let (data, rest) = postcard::take_from_bytes::<$type>(bytes).ok()?;
                 let sound: fn(&$type) -> bool = $sound;
-                (rest.is_empty() && sound(&data)).then_some(data)
+                from_postcard(bytes, sound)
             }
 
             fn kind(&self) -> MessageKind {

@@ -4,6 +4,8 @@
 use std::collections::BTreeMap;
 
 use bevy::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use super::external_message::{self, DataType, Module};
 use super::kind::MessageKind;
@@ -31,6 +33,18 @@ pub trait Data: Clone + Send + Sync + 'static {
     fn sequence(&self) -> Option<Sequence> {
         None
     }
+}
+
+/// Data as [postcard](https://postcard.jamesmunns.com/wire-format), the format of Touchline's own types.
+pub fn to_postcard(data: &impl Serialize) -> Vec<u8> {
+    // Fails for types of unknown length only, of which there are none here.
+    postcard::to_stdvec(data).unwrap_or_default()
+}
+
+/// The data in these bytes; nothing, if they are none from beginning to end, or none that is sound.
+pub fn from_postcard<T: DeserializeOwned>(bytes: &[u8], is_sound: impl Fn(&T) -> bool) -> Option<T> {
+    let (data, rest) = postcard::take_from_bytes::<T>(bytes).ok()?;
+    (rest.is_empty() && is_sound(&data)).then_some(data)
 }
 
 /// Triggered at a robot when data of a registered type have reached it: the paper's callback. Observe it to receive a type.

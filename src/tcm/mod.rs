@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-pub use data::{Arrived, Data, RegisterData, Registered, Registry};
+pub use data::{Arrived, Data, RegisterData, Registered, Registry, from_postcard, to_postcard};
 pub use directory::Directory;
 pub use external_message::{Address, DataType, ExternalMessage, Module};
 pub use kind::MessageKind;

@@ -10,7 +10,11 @@ use crate::head::HeadIntent;
 use crate::motor::SteeringIntent;
 use crate::referee::Orders;
 use crate::sense::Frame;
-use crate::tcm::{Data, DataType, Module, RegisterData};
+use crate::tcm::external_message::Entity as Party;
+use crate::tcm::fragments::{USUAL_DATAGRAM, cut};
+use crate::tcm::{
+    Address, Data, DataType, ExternalMessage, Module, RegisterData, from_postcard, to_postcard,
+};
 
 pub(super) fn plugin(app: &mut App) {
     app.register_data::<Sensors>().register_data::<Command>();
@@ -60,6 +64,19 @@ pub struct Command {
     pub datagrams: (u64, u64),
 }
 
+/// The datagrams that bring data from one end of the link to the other, as the next message of their source.
+pub(super) fn datagrams<T: Data>(data: &T, from: Party, to: Party, counter: &mut u32) -> Vec<Vec<u8>> {
+    let address = |entity| Address { entity, module: T::MODULE };
+    let message = ExternalMessage {
+        source: address(from),
+        destination: address(to),
+        data_type: T::TYPE,
+        data: data.serialise(),
+    };
+    *counter = counter.wrapping_add(1);
+    cut(&message, *counter, USUAL_DATAGRAM).unwrap_or_default()
+}
+
 impl Command {
     fn is_finite(&self) -> bool {
         let steering = match self.steering {
@@ -90,12 +107,11 @@ impl Data for Sensors {
     const NAME: &'static str = "sensors";
 
     fn serialise(&self) -> Vec<u8> {
-        postcard::to_stdvec(self).unwrap_or_default()
+        to_postcard(self)
     }
 
     fn unserialise(bytes: &[u8]) -> Option<Sensors> {
-        let (sensors, rest) = postcard::take_from_bytes::<Sensors>(bytes).ok()?;
-        (rest.is_empty() && sensors.is_finite()).then_some(sensors)
+        from_postcard(bytes, Sensors::is_finite)
     }
 }
 
@@ -105,12 +121,11 @@ impl Data for Command {
     const NAME: &'static str = "command";
 
     fn serialise(&self) -> Vec<u8> {
-        postcard::to_stdvec(self).unwrap_or_default()
+        to_postcard(self)
     }
 
     fn unserialise(bytes: &[u8]) -> Option<Command> {
-        let (command, rest) = postcard::take_from_bytes::<Command>(bytes).ok()?;
-        (rest.is_empty() && command.is_finite()).then_some(command)
+        from_postcard(bytes, Command::is_finite)
     }
 }
 

@@ -10,7 +10,7 @@ use bevy::prelude::*;
 use serde::Serialize;
 
 use super::WireError;
-use super::protocol::{Command, Sensors};
+use super::protocol::{Command, Sensors, datagrams};
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::game::MatchPlan;
@@ -22,9 +22,9 @@ use crate::referee::Orders;
 use crate::robot::Robot;
 use crate::sense::{Odometry, Percepts};
 use crate::strategy::{Part, Strategies, Strategy};
-use crate::tcm::fragments::{Assembly, USUAL_DATAGRAM, cut};
+use crate::tcm::fragments::Assembly;
 use crate::tcm::udp::UdpConn;
-use crate::tcm::{Address, Data, Directory, ExternalMessage, HOST, Module, as_robot, party};
+use crate::tcm::{Data, Directory, HOST, as_robot, party};
 use crate::teamwork::Role;
 use crate::world_model::{BallBelief, WorldModel};
 
@@ -165,15 +165,7 @@ impl RemoteRobots {
                 orders: *orders,
             };
             remote.figures.told += 1;
-            let address = |entity| Address { entity, module: Module::REMOTE_ROBOTS };
-            let message = ExternalMessage {
-                source: address(HOST),
-                destination: address(party(*id)),
-                data_type: Sensors::TYPE,
-                data: sensors.serialise(),
-            };
-            self.counter = self.counter.wrapping_add(1);
-            for datagram in cut(&message, self.counter, USUAL_DATAGRAM).unwrap_or_default() {
+            for datagram in datagrams(&sensors, HOST, party(*id), &mut self.counter) {
                 // A robot that is not there is noticed by its silence.
                 let _ = self.conn.send(remote.address, &datagram);
             }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::WireError;
 use super::carrier::{CarrierFigures, UdpCarrier};
-use super::protocol::{Command, Sensors};
+use super::protocol::{Command, Sensors, datagrams};
 use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::game::{MatchPlan, start_mind};
@@ -23,9 +23,9 @@ use crate::robot::OffPitch;
 use crate::schedule::Tick;
 use crate::sense::{Odometry, Percepts};
 use crate::tcm::external_message::Entity as Party;
-use crate::tcm::fragments::{Assembly, USUAL_DATAGRAM, cut};
+use crate::tcm::fragments::Assembly;
 use crate::tcm::udp::UdpConn;
-use crate::tcm::{Address, Addresses, Data, ExternalMessage, HOST, Incoming, Module, Tcm, party};
+use crate::tcm::{Addresses, Data, HOST, Incoming, Tcm, party};
 use crate::teamwork::Role;
 use crate::world_model::WorldModel;
 
@@ -161,17 +161,10 @@ impl RobotProcess {
 
     fn answer(&mut self, to: SocketAddr, tick: u64) {
         let Some(command) = self.command(tick) else { return };
-        let address = |entity| Address { entity, module: Module::REMOTE_ROBOTS };
-        let message = ExternalMessage {
-            source: address(party(self.id)),
-            destination: address(HOST),
-            data_type: Command::TYPE,
-            data: command.serialise(),
-        };
-        self.counter = self.counter.wrapping_add(1);
+        let datagrams = datagrams(&command, party(self.id), HOST, &mut self.counter);
         let mut carrier = self.app.world_mut().resource_mut::<UdpCarrier>();
         let Some(conn) = carrier.conn(self.id) else { return };
-        for datagram in cut(&message, self.counter, USUAL_DATAGRAM).unwrap_or_default() {
+        for datagram in datagrams {
             // A match that is gone is noticed by its silence.
             let _ = conn.send(to, &datagram);
         }

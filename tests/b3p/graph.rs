@@ -28,7 +28,6 @@ const NOWHERE: u32 = u32::MAX;
 
 impl Graph {
     pub fn of(team: Team) -> Graph {
-        let start = std::time::Instant::now();
         let mut graph = Graph { team, states: Vec::new(), steps: Vec::new(), found: Vec::new() };
         let mut known = HashMap::new();
         for state in graph.team.init_states() {
@@ -48,7 +47,7 @@ impl Graph {
             graph.steps.push(steps);
             next += 1;
         }
-        println!("{} states, {:.1} s", graph.states.len(), start.elapsed().as_secs_f32());
+
         graph
     }
 
