@@ -12,7 +12,7 @@ pub fn control(data: &[u8]) {
         Ok(packet) => {
             assert!(good);
             assert_eq!(packet.write(), data);
-            for version in [Version::V18, Version::V19] {
+            for version in Version::ALL {
                 let written = ControlPacket { version, ..packet.clone() }.write();
                 assert_eq!(written.len(), version.packet_len());
                 assert_eq!(ControlPacket::read(&written).map(|packet| packet.write()), Ok(written));
@@ -52,7 +52,7 @@ pub fn status(data: &[u8]) {
 /// would say had it heard nothing else.
 ///
 /// The data are the number of players, whether the teams are known, and packets: the time since the last in sixteenths of
-/// a second, how the packet is made, its length, its bytes. In one of four ways it is the last packet with a byte changed.
+/// a second, how the packet is made, its length, its bytes. In two of eight ways it is the last packet with a byte changed.
 pub fn referee_box(data: &[u8]) {
     let [players, known, rest @ ..] = data else { return };
     let teams = (known % 2 == 1).then_some([6, 9]);
@@ -61,10 +61,11 @@ pub fn referee_box(data: &[u8]) {
     while let [wait, how, length, tail @ ..] = rest {
         let (bytes, tail) = tail.split_at(usize::from(*length).min(tail.len()));
         (rest, now) = (tail, now + u64::from(*wait) * 1000 / 16);
-        match (how % 4, bytes) {
+        match (how % 8, bytes) {
             (0, _) => packet = bytes.to_vec(),
-            (1, _) => packet = begun(Version::V18, bytes),
-            (2, _) => packet = begun(Version::V19, bytes),
+            (1 | 5, _) => packet = begun(Version::V18, bytes),
+            (2 | 6, _) => packet = begun(Version::V19, bytes),
+            (4, _) => packet = begun(Version::V20, bytes),
             (_, [place, value, ..]) if usize::from(*place) < packet.len() => {
                 packet[usize::from(*place)] = *value
             }

@@ -1,6 +1,6 @@
 //! The numbers of the protocol and what they mean in each version.
 //!
-//! The two leagues number set plays and penalties differently. A number without a known meaning is kept as `Other`, so
+//! The leagues, and the years of one, number set plays and penalties differently. A number without a known meaning is kept as `Other`, so
 //! that nothing is lost between reading and writing.
 
 use binrw::binrw;
@@ -12,8 +12,10 @@ use binrw::binrw;
 pub enum Version {
     /// Standard Platform League, 2025.
     V18 = 18,
-    /// Humanoid Soccer League, 2026.
+    /// Humanoid Soccer League, the boxes up to 6.
     V19 = 19,
+    /// Humanoid Soccer League, the box 7 of RoboCup 2026.
+    V20 = 20,
 }
 
 /// A number in one version's terms.
@@ -27,8 +29,8 @@ pub enum Code {
 
 use Code::{Is, Near};
 
-/// A meaning and its numbers in version 18 and version 19.
-pub type Row<T> = (T, Code, Code);
+/// A meaning and its numbers in the versions 18, 19 and 20.
+pub type Row<T> = (T, [Code; 3]);
 
 /// What a byte of the protocol means, by version.
 pub trait Coded: Copy + PartialEq + 'static {
@@ -59,14 +61,15 @@ pub trait Coded: Copy + PartialEq + 'static {
 
 fn code<T>(row: &Row<T>, version: Version) -> Code {
     match version {
-        Version::V18 => row.1,
-        Version::V19 => row.2,
+        Version::V18 => row.1[0],
+        Version::V19 => row.1[1],
+        Version::V20 => row.1[2],
     }
 }
 
-/// The enumeration with its table: each meaning with its numbers in version 18 and version 19.
+/// The enumeration with its table: each meaning with its numbers in the versions 18, 19 and 20.
 macro_rules! coded {
-    ($(#[$doc:meta])* $name:ident { $($(#[$meaning:meta])* $variant:ident: $v18:expr, $v19:expr;)+ }) => {
+    ($(#[$doc:meta])* $name:ident { $($(#[$meaning:meta])* $variant:ident: $v18:expr, $v19:expr, $v20:expr;)+ }) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum $name {
@@ -76,7 +79,7 @@ macro_rules! coded {
         }
 
         impl Coded for $name {
-            const ROWS: &'static [Row<$name>] = &[$(($name::$variant, $v18, $v19)),+];
+            const ROWS: &'static [Row<$name>] = &[$(($name::$variant, [$v18, $v19, $v20])),+];
 
             fn other(number: u8) -> $name {
                 $name::Other(number)
@@ -95,27 +98,27 @@ macro_rules! coded {
 coded! {
     /// Where a match stands.
     State {
-        Initial: Is(0), Is(0);
+        Initial: Is(0), Is(0), Is(0);
         /// The robots walk to their kick-off positions.
-        Ready: Is(1), Is(1);
+        Ready: Is(1), Is(1), Is(1);
         /// All stand still.
-        Set: Is(2), Is(2);
-        Playing: Is(3), Is(3);
+        Set: Is(2), Is(2), Is(2);
+        Playing: Is(3), Is(3), Is(3);
         /// The half, or the match, is over.
-        Finished: Is(4), Is(4);
+        Finished: Is(4), Is(4), Is(4);
         /// The robots watch for the referee's gesture that begins `Ready`. Only in version 18.
-        Standby: Is(5), Near(0);
+        Standby: Is(5), Near(0), Near(0);
     }
 }
 
 coded! {
     /// The part of a match.
     GamePhase {
-        Normal: Is(0), Is(0);
-        PenaltyShootOut: Is(1), Is(1);
-        ExtraTime: Is(2), Is(2);
+        Normal: Is(0), Is(0), Is(0);
+        PenaltyShootOut: Is(1), Is(1), Is(1);
+        ExtraTime: Is(2), Is(2), Is(2);
         /// A pause; the state is `Initial` meanwhile.
-        TimeOut: Is(3), Is(3);
+        TimeOut: Is(3), Is(3), Is(3);
     }
 }
 
@@ -123,18 +126,18 @@ coded! {
     /// How the ball comes back into play, other than by a kick-off.
     SetPlay {
         /// None, or a kick-off.
-        None: Is(0), Is(0);
-        GoalKick: Is(1), Is(5);
-        CornerKick: Is(3), Is(6);
-        /// From the side line: the kick-in of version 18, the throw-in of version 19.
-        SideLine: Is(4), Is(4);
-        PenaltyKick: Is(5), Is(3);
+        None: Is(0), Is(0), Is(0);
+        GoalKick: Is(1), Is(5), Is(5);
+        CornerKick: Is(3), Is(6), Is(6);
+        /// From the side line: the kick-in of version 18, the throw-in of the others.
+        SideLine: Is(4), Is(4), Is(4);
+        PenaltyKick: Is(5), Is(3), Is(3);
         /// After a foul, in version 18.
-        PushingFreeKick: Is(2), Near(1);
-        /// Only in version 19.
-        DirectFreeKick: Near(2), Is(1);
-        /// Only in version 19.
-        IndirectFreeKick: Near(2), Is(2);
+        PushingFreeKick: Is(2), Near(1), Near(1);
+        /// Not in version 18.
+        DirectFreeKick: Near(2), Is(1), Is(1);
+        /// Not in version 18.
+        IndirectFreeKick: Near(2), Is(2), Is(2);
     }
 }
 
@@ -142,34 +145,38 @@ coded! {
     /// Why a player is penalised.
     Penalty {
         /// Not penalised.
-        None: Is(0), Is(0);
-        IllegalPosition: Is(5), Is(1);
+        None: Is(0), Is(0), Is(0);
+        IllegalPosition: Is(5), Is(1), Is(1);
         /// Only in version 18.
-        IllegalPositionInSet: Is(9), Near(1);
-        MotionInSet: Is(3), Is(2);
+        IllegalPositionInSet: Is(9), Near(1), Near(1);
+        MotionInSet: Is(3), Is(2), Is(2);
+        /// A robot stepped while the play was stopped. Only in version 20.
+        MotionInStop: Near(3), Near(2), Is(3);
         /// Only in version 18.
-        MotionInStandby: Is(11), Near(2);
-        LocalGameStuck: Is(8), Is(3);
+        MotionInStandby: Is(11), Near(2), Near(2);
+        LocalGameStuck: Is(8), Is(3), Is(4);
         /// Fallen, inactive or incapable.
-        Inactive: Is(4), Is(4);
+        Inactive: Is(4), Is(4), Is(5);
         /// The team asked for the robot to be picked up.
-        PickUp: Is(7), Is(5);
+        PickUp: Is(7), Is(5), Is(6);
         /// Held the ball or played it with the hands, in version 18.
-        BallContact: Is(1), Near(6);
-        /// Only in version 19.
-        BallHolding: Near(1), Is(6);
-        LeavingTheField: Is(6), Is(7);
-        /// Only in version 19.
-        ArmsOrHands: Near(1), Is(8);
-        Pushing: Is(2), Is(9);
+        BallContact: Is(1), Near(6), Near(7);
+        /// Not in version 18.
+        BallHolding: Near(1), Is(6), Is(7);
+        LeavingTheField: Is(6), Is(7), Is(8);
+        /// Not in version 18.
+        ArmsOrHands: Near(1), Is(8), Is(9);
+        Pushing: Is(2), Is(9), Is(10);
         /// Stood with the legs too wide, in version 18.
-        Stance: Is(10), Near(4);
-        /// Off the field for good. Only in version 19.
-        SentOff: Near(15), Is(10);
+        Stance: Is(10), Near(4), Near(5);
+        /// Off the field for a yellow card. Only in version 20.
+        Cautioned: Near(2), Near(9), Is(11);
+        /// Off the field for good. Not in version 18.
+        SentOff: Near(15), Is(10), Is(12);
         /// Not on the field; also in every slot that has no player.
-        Substitute: Is(14), Is(11);
+        Substitute: Is(14), Is(11), Is(13);
         /// By the referee's hand, for no named reason. Only in version 18.
-        Manual: Is(15), Near(5);
+        Manual: Is(15), Near(5), Near(6);
     }
 }
 
@@ -177,37 +184,37 @@ coded! {
     /// What kind of competition the match belongs to.
     CompetitionType {
         /// The only one of version 18.
-        Normal: Is(0), Near(0);
-        /// Small robots, in version 19.
-        Small: Near(0), Is(0);
-        /// Middle-sized robots, in version 19.
-        Middle: Near(0), Is(1);
-        /// Large robots, in version 19.
-        Large: Near(0), Is(2);
+        Normal: Is(0), Near(0), Near(0);
+        /// Small robots. Not in version 18.
+        Small: Near(0), Is(0), Is(0);
+        /// Middle-sized robots. Not in version 18.
+        Middle: Near(0), Is(1), Is(1);
+        /// Large robots. Not in version 18.
+        Large: Near(0), Is(2), Is(2);
     }
 }
 
 coded! {
-    /// Which part of a competition the match belongs to. Version 19 does not say.
+    /// Which part of a competition the match belongs to. Only version 18 says.
     CompetitionPhase {
-        RoundRobin: Is(0), Is(0);
-        PlayOff: Is(1), Is(1);
+        RoundRobin: Is(0), Is(0), Is(0);
+        PlayOff: Is(1), Is(1), Is(1);
     }
 }
 
 coded! {
     /// What a player wears.
     Colour {
-        Blue: Is(0), Is(0);
-        Red: Is(1), Is(1);
-        Yellow: Is(2), Is(2);
-        Black: Is(3), Is(3);
-        White: Is(4), Is(4);
-        Green: Is(5), Is(5);
-        Orange: Is(6), Is(6);
-        Purple: Is(7), Is(7);
-        Brown: Is(8), Is(8);
-        Grey: Is(9), Is(9);
+        Blue: Is(0), Is(0), Is(0);
+        Red: Is(1), Is(1), Is(1);
+        Yellow: Is(2), Is(2), Is(2);
+        Black: Is(3), Is(3), Is(3);
+        White: Is(4), Is(4), Is(4);
+        Green: Is(5), Is(5), Is(5);
+        Orange: Is(6), Is(6), Is(6);
+        Purple: Is(7), Is(7), Is(7);
+        Brown: Is(8), Is(8), Is(8);
+        Grey: Is(9), Is(9), Is(9);
     }
 }
 
@@ -232,7 +239,7 @@ impl From<bool> for Flag {
 mod tests {
     use super::*;
 
-    const VERSIONS: [Version; 2] = [Version::V18, Version::V19];
+    const VERSIONS: [Version; 3] = Version::ALL;
 
     fn nothing_is_lost<T: Coded + std::fmt::Debug>() {
         for version in VERSIONS {
@@ -264,10 +271,12 @@ mod tests {
     #[test]
     fn the_versions_number_penalties_differently() {
         let read = |number| VERSIONS.map(|version| Penalty::read(number, version));
-        assert_eq!(read(9), [Penalty::IllegalPositionInSet, Penalty::Pushing]);
-        assert_eq!(read(11), [Penalty::MotionInStandby, Penalty::Substitute]);
-        assert_eq!(read(14), [Penalty::Substitute, Penalty::Other(14)]);
-        assert_eq!(VERSIONS.map(|version| Penalty::Substitute.write(version)), [14, 11]);
+        assert_eq!(read(3), [Penalty::MotionInSet, Penalty::LocalGameStuck, Penalty::MotionInStop]);
+        assert_eq!(read(4), [Penalty::Inactive, Penalty::Inactive, Penalty::LocalGameStuck]);
+        assert_eq!(read(9), [Penalty::IllegalPositionInSet, Penalty::Pushing, Penalty::ArmsOrHands]);
+        assert_eq!(read(11), [Penalty::MotionInStandby, Penalty::Substitute, Penalty::Cautioned]);
+        assert_eq!(read(14), [Penalty::Substitute, Penalty::Other(14), Penalty::Other(14)]);
+        assert_eq!(VERSIONS.map(|version| Penalty::Substitute.write(version)), [14, 11, 13]);
     }
 
     #[test]
@@ -276,6 +285,7 @@ mod tests {
             Penalty::read(Penalty::BallHolding.write(Version::V18), Version::V18),
             Penalty::BallContact
         );
+        assert_eq!(Penalty::read(Penalty::Cautioned.write(Version::V19), Version::V19), Penalty::Pushing);
         assert_eq!(State::read(State::Standby.write(Version::V19), Version::V19), State::Initial);
         assert_eq!(State::read(5, Version::V19), State::Other(5));
     }

@@ -1,6 +1,7 @@
 //! What a referee box says: the control packet, by UDP on [`PORT`], about twice per second.
 //!
-//! Numbers are little-endian and nothing is padded. Version 18 has 118 bytes, version 19 has 198.
+//! Numbers are little-endian and nothing is padded. Version 18 has 118 bytes, version 19 has 198, version 20
+//! has 158.
 
 use binrw::io::Cursor;
 use binrw::{BinRead, BinWrite, binrw};
@@ -24,7 +25,7 @@ const MAGIC: [u8; 4] = *b"RGme";
 /// What stands for neither team.
 const NO_TEAM: u8 = 255;
 
-/// A control packet of either version.
+/// A control packet of any version.
 #[binrw]
 #[brw(little, magic = b"RGme")]
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,9 +42,9 @@ pub struct ControlPacket {
     #[br(map = |number| CompetitionType::read(number, version))]
     #[bw(map = |kind| kind.write(*version))]
     pub competition_type: CompetitionType,
-    /// The referee has stopped the play. Only in version 19.
-    #[br(if(version == Version::V19))]
-    #[bw(if(*version == Version::V19))]
+    /// The referee has stopped the play, whatever the state. Not in version 18.
+    #[br(if(version != Version::V18))]
+    #[bw(if(*version != Version::V18))]
     pub stopped: Flag,
     #[br(map = |number| GamePhase::read(number, version))]
     #[bw(map = |phase| phase.write(*version))]
@@ -108,8 +109,8 @@ pub struct PlayerInfo {
     /// Only in version 19.
     #[brw(if(version == Version::V19))]
     pub warnings: u8,
-    /// Yellow cards. Only in version 19.
-    #[brw(if(version == Version::V19))]
+    /// Yellow cards. Not in version 18.
+    #[brw(if(version != Version::V18))]
     pub cautions: u8,
 }
 
@@ -118,16 +119,19 @@ pub struct PlayerInfo {
 pub enum PacketError {
     #[error("not a control packet: it does not begin with \"RGme\" and a version")]
     NotOurs,
-    #[error("a control packet of version {0}, where 18 and 19 are understood")]
+    #[error("a control packet of version {0}, where 18 to 20 are understood")]
     Version(u8),
     #[error("a control packet of {got} bytes, where its version has {expected}")]
     Length { got: usize, expected: usize },
 }
 
 impl Version {
+    /// All that are understood.
+    pub const ALL: [Version; 3] = [Version::V18, Version::V19, Version::V20];
+
     /// The version of this number, if it is understood.
     pub fn from_number(number: u8) -> Option<Version> {
-        [Version::V18, Version::V19].into_iter().find(|version| *version as u8 == number)
+        Version::ALL.into_iter().find(|version| *version as u8 == number)
     }
 
     /// The bytes of a control packet.
@@ -135,6 +139,7 @@ impl Version {
         match self {
             Version::V18 => 118,
             Version::V19 => 198,
+            Version::V20 => 158,
         }
     }
 }
@@ -188,9 +193,15 @@ pub(super) mod tests {
     pub const HSL_LAST: &[u8] =
         include_bytes!("../../tests/golden/gamecontroller/HumanoidSoccerLeague-last.bin");
 
-    /// Packets of either version with anything in them.
+    pub const V20_INITIAL: &[u8] = include_bytes!("../../tests/golden/gamecontroller/v20-initial.bin");
+    pub const V20_STOPPED: &[u8] =
+        include_bytes!("../../tests/golden/gamecontroller/v20-stopped-free-kick.bin");
+    pub const V20_PENALTIES: &[u8] =
+        include_bytes!("../../tests/golden/gamecontroller/v20-new-penalties.bin");
+
+    /// Packets of any version with anything in them.
     pub fn packets() -> impl Strategy<Value = Vec<u8>> {
-        prop::sample::select(vec![Version::V18, Version::V19]).prop_flat_map(|version| {
+        prop::sample::select(Version::ALL.to_vec()).prop_flat_map(|version| {
             prop::collection::vec(any::<u8>(), version.packet_len()).prop_map(move |mut bytes| {
                 bytes[..4].copy_from_slice(&MAGIC);
                 bytes[4] = version as u8;
@@ -279,6 +290,45 @@ pub(super) mod tests {
         is_what_was_captured(HSL_LAST, &packet);
     }
 
+    /// Four against four middle-sized robots in version 20, of teams 12 and 34.
+    fn v20_initial() -> ControlPacket {
+        let teams = [(12, Colour::Red), (34, Colour::Blue)].map(|(number, colour)| {
+            let mut team = team(number, (colour, colour), Version::V20);
+            team.players[4..7].iter_mut().for_each(|player| player.penalty = Penalty::Substitute);
+            team
+        });
+        let competition_type = CompetitionType::Middle;
+        ControlPacket { players_per_team: 4, competition_type, ..initial(Version::V20, teams) }
+    }
+
+    /// A free kick of team 34 while the play is stopped, after a goal of team 12.
+    fn v20_stopped() -> ControlPacket {
+        let mut packet = v20_initial();
+        (packet.packet_number, packet.state, packet.kicking_team) = (24, State::Playing, Some(34));
+        (packet.stopped, packet.set_play) = (Flag(1), SetPlay::DirectFreeKick);
+        (packet.secs_remaining, packet.secondary_time) = (596, 44);
+        (packet.teams[0].score, packet.teams[0].message_budget) = (1, 11995);
+        packet.teams[0].players[1] =
+            PlayerInfo { penalty: Penalty::Pushing, secs_till_unpenalised: 42, warnings: 0, cautions: 1 };
+        packet
+    }
+
+    #[test]
+    fn a_stopped_free_kick_is_understood_in_version_20() {
+        is_what_was_captured(V20_INITIAL, &v20_initial());
+        is_what_was_captured(V20_STOPPED, &v20_stopped());
+    }
+
+    #[test]
+    fn the_penalties_that_are_new_in_version_20_are_understood() {
+        let mut packet = v20_stopped();
+        let new = [(Penalty::MotionInStop, 45), (Penalty::Cautioned, 45), (Penalty::SentOff, 0)];
+        for (slot, (penalty, seconds)) in packet.teams[1].players.iter_mut().zip(new) {
+            (slot.penalty, slot.secs_till_unpenalised) = (penalty, seconds);
+        }
+        is_what_was_captured(V20_PENALTIES, &packet);
+    }
+
     #[test]
     fn what_is_no_control_packet_is_refused_with_the_reason() {
         let changed = |place: usize, byte| {
@@ -287,14 +337,15 @@ pub(super) mod tests {
             ControlPacket::read(&bytes).unwrap_err()
         };
         assert_eq!(changed(2, b't'), PacketError::NotOurs);
-        assert_eq!(changed(4, 20), PacketError::Version(20));
+        assert_eq!(changed(4, 21), PacketError::Version(21));
+        assert_eq!(changed(4, 20), PacketError::Length { got: 198, expected: 158 });
         assert_eq!(changed(4, 18), PacketError::Length { got: 198, expected: 118 });
         for cut in 0..198 {
             let length = PacketError::Length { got: cut, expected: 198 };
             let expected = if cut < 5 { PacketError::NotOurs } else { length };
             assert_eq!(ControlPacket::read(&HSL_INITIAL[..cut]), Err(expected));
         }
-        assert!(changed(4, 20).to_string().contains("version 20"));
+        assert!(changed(4, 21).to_string().contains("version 21"));
     }
 
     #[test]
@@ -312,8 +363,10 @@ pub(super) mod tests {
         }
 
         #[test]
-        fn a_packet_in_the_other_version_has_its_length_and_reads(bytes in packets(), v19: bool) {
-            let version = if v19 { Version::V19 } else { Version::V18 };
+        fn a_packet_in_another_version_has_its_length_and_reads(
+            bytes in packets(),
+            version in prop::sample::select(Version::ALL.to_vec()),
+        ) {
             let written = ControlPacket { version, ..ControlPacket::read(&bytes).unwrap() }.write();
             prop_assert_eq!(written.len(), version.packet_len());
             prop_assert_eq!(ControlPacket::read(&written).unwrap().write(), written);

@@ -208,7 +208,9 @@ impl RefereeBox {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::control::tests::{HSL_INITIAL, HSL_LAST, SPL_INITIAL, SPL_LAST, packets};
+    use super::super::control::tests::{
+        HSL_INITIAL, HSL_LAST, SPL_INITIAL, SPL_LAST, V20_PENALTIES, packets,
+    };
     use super::*;
 
     /// The last packet of the newer box with another number.
@@ -246,6 +248,16 @@ mod tests {
     }
 
     #[test]
+    fn a_packet_of_version_20_is_followed() {
+        let view = RefereeBox::new(None, 4).hear(V20_PENALTIES, 0).unwrap().unwrap();
+        assert!(view.stopped && view.set_play == SetPlay::DirectFreeKick && view.kicking == Some(1));
+        let penalties =
+            view.penalties.each_ref().map(|side| side.iter().map(|p| p.penalty).collect::<Vec<_>>());
+        let away = vec![Penalty::MotionInStop, Penalty::Cautioned, Penalty::SentOff];
+        assert_eq!(penalties, [vec![Penalty::Pushing], away]);
+    }
+
+    #[test]
     fn players_who_do_not_play_here_are_not_penalised() {
         let view = RefereeBox::new(Some([6, 9]), 1).hear(HSL_LAST, 0).unwrap().unwrap();
         assert!(view.penalties.iter().all(Vec::is_empty));
@@ -256,7 +268,7 @@ mod tests {
     #[test]
     fn without_numbers_the_first_match_is_followed() {
         let mut referee = RefereeBox::new(None, 7);
-        assert_eq!(referee.hear(b"RGme\x14", 0), Err(Ignored::Version(20)));
+        assert_eq!(referee.hear(b"RGme\x15", 0), Err(Ignored::Version(21)));
         assert_eq!(referee.team_numbers(), None);
         assert!(referee.hear(SPL_INITIAL, 0).is_ok());
         assert_eq!(referee.team_numbers(), Some([5, 24]));

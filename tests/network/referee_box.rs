@@ -211,7 +211,7 @@ fn what_is_no_packet_about_this_match_is_counted_and_not_followed() {
     let over = Standing { state: State::Finished, first_half: false, ..refereed.says.clone() };
     let over = Standing { packet_number: over.packet_number + 1, score: [9, 9], ..over };
     let elsewhere = Standing { team_numbers: [12, 35], ..over.clone() }.packet().write();
-    let version = [b"RGme\x14", &over.packet().write()[5..]].concat();
+    let version = [b"RGme\x15", &over.packet().write()[5..]].concat();
     let short = &over.packet().write()[..197];
     let late = Standing { packet_number: refereed.says.packet_number - 1, ..over.clone() }.packet().write();
     for bytes in [&b"hello"[..], &version, short, &elsewhere, &late] {
