@@ -301,7 +301,7 @@ pub(super) mod tests {
         ControlPacket { players_per_team: 4, competition_type, ..initial(Version::V20, teams) }
     }
 
-    /// A free kick of team 34 while the play is stopped, after a goal of team 12.
+    /// A free kick of team 34, one of whose robots is a substitute, while the play is stopped, after a goal of team 12.
     fn v20_stopped() -> ControlPacket {
         let mut packet = v20_initial();
         (packet.packet_number, packet.state, packet.kicking_team) = (24, State::Playing, Some(34));
@@ -310,6 +310,7 @@ pub(super) mod tests {
         (packet.teams[0].score, packet.teams[0].message_budget) = (1, 11995);
         packet.teams[0].players[1] =
             PlayerInfo { penalty: Penalty::Pushing, secs_till_unpenalised: 42, warnings: 0, cautions: 1 };
+        packet.teams[1].players[3].penalty = Penalty::Substitute;
         packet
     }
 
