@@ -59,8 +59,9 @@ pub(crate) fn judge(
 ) {
     calls.0.clear();
     for robot in due.0.drain(..) {
-        if state.remove(robot, f64::INFINITY) {
-            calls.0.push(Decision::RobotRemoved { robot, reason: RemovalReason::Ordered });
+        let reason = RemovalReason::Ordered;
+        if state.remove(robot, f64::INFINITY, reason) {
+            calls.0.push(Decision::RobotRemoved { robot, reason });
         }
     }
     if state.refereed {

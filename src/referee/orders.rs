@@ -75,6 +75,7 @@ impl fmt::Display for RobotState {
 mod tests {
     use super::*;
     use crate::ids::Team;
+    use crate::referee::RemovalReason;
 
     #[test]
     fn robots_walk_in_ready_only_where_nobody_carries_them() {
@@ -86,7 +87,7 @@ mod tests {
         state.phase = Phase::Ready;
         assert!(!Orders::of(robot, &state, &carried, place).may_move());
         assert!(Orders::of(robot, &state, &walked, place).may_move());
-        state.remove(robot, 30.0);
+        state.remove(robot, 30.0, RemovalReason::Pushing);
         let penalised = Orders::of(robot, &state, &walked, place);
         assert_eq!((penalised.state, penalised.may_move()), (RobotState::Penalised, false));
     }

@@ -7,6 +7,7 @@ use std::fmt;
 
 use bevy::prelude::{Resource, Vec2};
 
+use super::decision::RemovalReason;
 use super::rulebook::RuleBook;
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
@@ -42,6 +43,7 @@ impl fmt::Display for Phase {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Removal {
     pub robot: RobotId,
+    pub reason: RemovalReason,
     /// Seconds of playing time until it may return. At 0 it waits for play to go on and for a free place.
     pub seconds_left: f64,
 }
@@ -205,6 +207,11 @@ impl MatchState {
         self.score[team.index()]
     }
 
+    /// Seconds that robots have yet to come to their places for a kick-off, while they have any.
+    pub fn ready_left(&self, book: &RuleBook) -> Option<f64> {
+        (self.phase == Phase::Ready).then(|| (f64::from(book.ready_seconds) - self.waited).max(0.0))
+    }
+
     /// Whether a robot is off the field.
     pub fn is_removed(&self, robot: RobotId) -> bool {
         self.removed.binary_search_by_key(&robot, |removal| removal.robot).is_ok()
@@ -212,11 +219,11 @@ impl MatchState {
 
     /// Takes a robot off the field for some seconds of playing time, forgets what it was about to be taken off for, and
     /// tells whether it was on the field: one that is off already stays as it is.
-    pub(super) fn remove(&mut self, robot: RobotId, seconds_left: f64) -> bool {
+    pub(super) fn remove(&mut self, robot: RobotId, seconds_left: f64, reason: RemovalReason) -> bool {
         let Err(place) = self.removed.binary_search_by_key(&robot, |removal| removal.robot) else {
             return false;
         };
-        self.removed.insert(place, Removal { robot, seconds_left });
+        self.removed.insert(place, Removal { robot, reason, seconds_left });
         self.defenders.retain(|defender| defender.robot != robot);
         self.pushes.retain(|(pushing, _)| *pushing != robot);
         self.hold = self.hold.filter(|hold| hold.robot != robot);
@@ -247,9 +254,10 @@ mod tests {
     fn a_removed_robot_is_found_and_removed_only_once() {
         let mut state = MatchState::new(Team::Home, &RuleBook::default());
         let (first, second) = (RobotId::new(Team::Home, 2), RobotId::new(Team::Away, 1));
-        state.remove(second, 30.0);
-        state.remove(first, 20.0);
-        state.remove(first, 30.0);
+        let reason = RemovalReason::Pushing;
+        state.remove(second, 30.0, reason);
+        state.remove(first, 20.0, reason);
+        state.remove(first, 30.0, reason);
         assert_eq!(state.removed.iter().map(|r| r.robot).collect::<Vec<_>>(), [first, second]);
         assert!(state.is_removed(first) && !state.is_removed(RobotId::new(Team::Home, 1)));
         assert_eq!(state.removed[0].seconds_left, 20.0);

@@ -99,8 +99,9 @@ fn change_penalties(
     };
     let present: Vec<RobotId> = observation.robots.iter().map(|(robot, _)| *robot).collect();
     for robot in present.into_iter().filter(|robot| penalised(*robot)) {
-        if state.remove(robot, f64::INFINITY) {
-            decisions.push(Decision::RobotRemoved { robot, reason: RemovalReason::RefereeBox });
+        let reason = RemovalReason::RefereeBox;
+        if state.remove(robot, f64::INFINITY, reason) {
+            decisions.push(Decision::RobotRemoved { robot, reason });
         }
     }
     let free: Vec<RobotId> =

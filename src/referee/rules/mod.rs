@@ -178,7 +178,7 @@ fn send_off(
         Decision::RobotPlaced { robot: placed, .. } => *placed == robot,
         _ => false,
     });
-    if !placed && state.remove(robot, seconds.max(0.0)) {
+    if !placed && state.remove(robot, seconds.max(0.0), reason) {
         made.push(Decision::RobotRemoved { robot, reason });
     }
 }

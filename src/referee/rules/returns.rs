@@ -151,7 +151,7 @@ mod tests {
         table.put(HOME_0, Vec2::new(-0.4, 2.1));
         for robot in [HOME_1, HOME_2] {
             table.take_off(robot);
-            table.state.remove(robot, 0.0);
+            table.state.remove(robot, 0.0, RemovalReason::Ordered);
         }
         table.run(0.1);
         let places = [HOME_0, HOME_1, HOME_2].map(|robot| table.place(robot));
@@ -165,7 +165,7 @@ mod tests {
     fn a_robot_returns_on_the_other_side_when_the_far_one_is_full() {
         let mut table = Table::playing(60);
         table.take_off(HOME_1);
-        table.state.remove(HOME_1, 0.0);
+        table.state.remove(HOME_1, 0.0, RemovalReason::Ordered);
         for number in 10..20_u8 {
             table.put(RobotId::new(Team::Away, number), Vec2::new(-0.5 * f32::from(number - 10), -2.15));
         }
@@ -181,7 +181,7 @@ mod tests {
             table.ball = ball;
             for robot in [HOME_1, HOME_2] {
                 table.take_off(robot);
-                table.state.remove(robot, 1.0);
+                table.state.remove(robot, 1.0, RemovalReason::Ordered);
             }
             table.run(0.9);
             assert!(table.state.is_removed(HOME_1));
@@ -204,7 +204,7 @@ mod tests {
         table.restart_in_play();
         for (robot, seconds) in [(HOME_1, 20.0), (HOME_2, f64::INFINITY)] {
             table.take_off(robot);
-            table.state.remove(robot, seconds);
+            table.state.remove(robot, seconds, RemovalReason::Ordered);
         }
         table.run(5.0);
         table.shoot_east();
