@@ -107,6 +107,24 @@ fn an_address_that_is_none_is_named_with_its_option() {
 }
 
 #[test]
+fn options_about_the_league_that_have_no_effect_are_refused() {
+    let robot = ["robot", "--team", "home", "--number", "1"];
+    let calls: [(&[&str], &str); 5] = [
+        (&["run", "--announce-version", "19"], "--announce"),
+        (&["run", "--announce", "127.0.0.1:9", "--announce-version", "17"], "18, 19 or 20"),
+        (&["run", "--league-ports", "127.0.0.1", "--remote", "home:1"], "--remote"),
+        (&[&robot[..], &["--league-ports", "127.0.0.1"]].concat(), "--league-ports"),
+        (&[&robot[..], &["--announce", "127.0.0.1:9"]].concat(), "--announce"),
+    ];
+    for (call, word) in calls {
+        let output = touchline(call);
+        let message = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{call:?}: {message}");
+        assert!(message.contains(word) && output.stdout.is_empty(), "{call:?}: {message}");
+    }
+}
+
+#[test]
 fn a_fault_in_the_addresses_is_named_with_its_line_and_field() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("addresses.ron");

@@ -1,5 +1,7 @@
 //! Matches that cross a network: team messages over real sockets, robots in other processes, referee boxes.
 
+mod announced;
+mod league;
 mod processes;
 mod referee_box;
 

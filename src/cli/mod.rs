@@ -5,14 +5,15 @@ mod play;
 mod robot;
 mod run;
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{ArgGroup, Args, Parser, Subcommand};
 
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
+use crate::gamecontroller::control::Version;
 use crate::ids::RobotId;
 use crate::wire::WirePlan;
 
@@ -41,6 +42,7 @@ enum Command {
 
 /// What a person may change of a match; the same for `play` and `run`.
 #[derive(Args, Clone, Debug, Default)]
+#[command(group = ArgGroup::new("league").args(["announce", "league_ports"]).multiple(true))]
 struct MatchOptions {
     /// The match: a name among the assets or a path.
     #[arg(long = "match", value_name = "MATCH")]
@@ -63,9 +65,16 @@ struct MatchOptions {
     /// Let a referee box referee the match: the address that its packets are sent to, such as 127.0.0.1:3838.
     #[arg(long, value_name = "ADDRESS")]
     gamecontroller: Option<SocketAddr>,
-    /// Announce the match in the GameController's format to this address.
+    /// Announce the match in the GameController's format to this address, such as 192.168.1.255:3838 or [::1]:3838.
     #[arg(long, value_name = "ADDRESS")]
     announce: Option<SocketAddr>,
+    /// The version of what is announced, and of the league's limits: 18, 19 or 20; 20 if not given.
+    #[arg(long, value_name = "VERSION", value_parser = version, requires = "league")]
+    announce_version: Option<Version>,
+    /// Send each team message to this host, too, at the league's port 10000 + team number, where referee boxes count them;
+    /// robots then keep to the league's budget and length of messages.
+    #[arg(long, value_name = "HOST", conflicts_with = "remote")]
+    league_ports: Option<IpAddr>,
     /// Equal seeds give equal matches; 1 if not given.
     #[arg(long)]
     seed: Option<u64>,
@@ -82,6 +91,8 @@ impl MatchOptions {
             remote: self.remote.clone(),
             gamecontroller: self.gamecontroller,
             announce: self.announce,
+            league_ports: self.league_ports,
+            version: self.announce_version.unwrap_or_default(),
         };
         Choice {
             file: self.file.clone(),
@@ -89,7 +100,7 @@ impl MatchOptions {
             away: self.away.clone(),
             radio: self.radio.clone().filter(|_| !by_udp),
             addresses: self.addresses.clone(),
-            wires,
+            wires: Box::new(wires),
             half_minutes: self.minutes,
             seed: self.seed.unwrap_or(1),
             pilot,
@@ -99,6 +110,12 @@ impl MatchOptions {
     fn plan(&self, assets: &AssetFolder, pilot: Option<RobotId>) -> Result<MatchPlan, DataError> {
         MatchPlan::read(assets, &self.choice(pilot))
     }
+}
+
+/// Reads the number of a version of the GameController's format.
+fn version(text: &str) -> Result<Version, String> {
+    let version = text.parse().ok().and_then(Version::from_number);
+    version.ok_or_else(|| "must be 18, 19 or 20".into())
 }
 
 /// The radio that is none: team messages go by UDP.

@@ -38,6 +38,13 @@ enum Side {
 
 impl Robot {
     pub(super) fn run(&self, assets: &AssetFolder) -> Result<ExitCode, DataError> {
+        let elsewhere = [
+            ("--announce", self.options.announce.is_some()),
+            ("--league-ports", self.options.league_ports.is_some()),
+        ];
+        if let Some((option, _)) = elsewhere.into_iter().find(|(_, given)| *given) {
+            return Err(DataError::new(option, "is for the match, not for one of its robots"));
+        }
         let plan = self.options.plan(assets, None)?;
         let team = match self.team {
             Side::Home => Team::Home,

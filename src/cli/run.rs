@@ -14,6 +14,7 @@ use crate::ids::Team;
 use crate::radio::{LinkCounters, Traffic};
 use crate::record::BookingFigures;
 use crate::referee::RuleBook;
+use crate::tcm::{MessageBudgets, Spent};
 use crate::wire::{self, CarrierFigures, RemoteFigures, UdpCarrier};
 
 #[derive(Args, Debug, Default)]
@@ -44,6 +45,9 @@ struct Report {
     driven: [f64; 2],
     /// What a team's robots said to each other.
     messages: [Messages; 2],
+    /// What the teams said as the league counts it, where the match is announced or keeps to the league's limits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    budgets: Option<[TeamBudget; 2]>,
     /// What became of the datagrams that crossed a network.
     #[serde(skip_serializing_if = "Option::is_none")]
     network: Option<Network>,
@@ -54,6 +58,21 @@ struct Report {
     ticks_per_second: f64,
     /// Equal digests mean equal matches.
     digest: String,
+}
+
+/// A team's messages, each datagram once however many robots hear it.
+#[derive(Debug, Serialize)]
+struct TeamBudget {
+    #[serde(flatten)]
+    spent: Spent,
+    left: u64,
+}
+
+impl TeamBudget {
+    fn of(game: &Match) -> Option<[TeamBudget; 2]> {
+        let budgets = game.world().get_resource::<MessageBudgets>()?;
+        Some(Team::BOTH.map(|team| TeamBudget { spent: budgets.spent(team), left: budgets.left(team) }))
+    }
 }
 
 /// What crossed a network: the datagrams of the robots that this process ran, and how the others answered.
@@ -180,6 +199,7 @@ impl Report {
             bookings: record.bookings,
             driven: Team::BOTH.map(|team| record.driven_by(team)),
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
+            budgets: TeamBudget::of(game),
             network: Network::of(game),
             seconds: clock.now(),
             ticks: clock.tick,
@@ -196,6 +216,13 @@ impl Report {
         println!("driven      {:4.0} m : {:.0} m", self.driven[0], self.driven[1]);
         let [home, away] = &self.messages;
         println!("messages    {:6} : {} ({} and {} lost)", home.sent, away.sent, home.lost, away.lost);
+        if let Some([home, away]) = &self.budgets {
+            println!("budget      {:6} : {} messages left of the league's", home.left, away.left);
+            let held_back = [home, away].map(|team| team.spent.over_budget);
+            if held_back.iter().any(|messages| *messages > 0) {
+                println!("            {:6} : {} not sent, to keep within it", held_back[0], held_back[1]);
+            }
+        }
         if let Some(network) = &self.network {
             network.print();
         }

@@ -65,8 +65,8 @@ pub struct Choice {
     pub pilot: Option<RobotId>,
     /// A file that says where robots and computers are.
     pub addresses: Option<PathBuf>,
-    /// What crosses a network.
-    pub wires: WirePlan,
+    /// What crosses a network; boxed, since it is large and mostly empty.
+    pub wires: Box<WirePlan>,
 }
 
 /// A match that can be played: every file is read and sound.
@@ -128,6 +128,9 @@ impl MatchPlan {
         if let Some((field, message)) = ball_fault.or(rules_fault).or(tcm_fault) {
             return Err(source.error_at(&dotted(&field), message));
         }
+        if choice.wires.league_ports.is_some() {
+            file.tcm.datagram = file.tcm.datagram.min(choice.wires.version.longest_message());
+        }
         if let Some(minutes) = choice.half_minutes {
             file.rules.half_minutes = minutes;
             if let Some((_, message)) = file.rules.fault() {
@@ -142,7 +145,7 @@ impl MatchPlan {
         let teams =
             [TeamPlan::read(assets, &file.home, &pitch)?, TeamPlan::read(assets, &file.away, &pitch)?];
         let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
-        let wires = choice.wires.clone();
+        let wires = WirePlan::clone(&choice.wires);
         let plan = MatchPlan {
             name: file.name,
             pitch,

@@ -5,8 +5,9 @@ use super::control::{
     PlayerInfo, SetPlay, State, TeamInfo, Version,
 };
 
-/// What home and away wear, in the window and here.
-const COLOURS: [Colour; 2] = [Colour::Red, Colour::Blue];
+/// What home and away wear, keepers and all: of the league's colours those that come nearest to our markers, which are
+/// magenta and cyan.
+const COLOURS: [Colour; 2] = [Colour::Purple, Colour::Blue];
 
 /// Where our match stands. A side is 0 for home and 1 for away.
 ///
@@ -14,12 +15,16 @@ const COLOURS: [Colour; 2] = [Colour::Red, Colour::Blue];
 /// what the packet can hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Standing {
+    pub version: Version,
     /// One more than in the last packet; wraps.
     pub packet_number: u8,
+    pub game_phase: GamePhase,
     pub state: State,
     pub set_play: SetPlay,
     pub stopped: bool,
     pub first_half: bool,
+    /// The side that defends the left goal. It is listed first, so that the order changes with the ends.
+    pub left: usize,
     /// The side that has the kick-off or the set play.
     pub kicking: Option<usize>,
     /// Seconds left in the half.
@@ -32,6 +37,10 @@ pub struct Standing {
     pub team_numbers: [u8; 2],
     /// In each team. The packet has room for 20.
     pub players_per_team: u8,
+    /// The players that keep the goals, counted from 0.
+    pub goalkeepers: [Option<u8>; 2],
+    /// Messages that each team may still send; more than 65535 are told as that.
+    pub message_budgets: [u64; 2],
     pub penalties: Vec<Sentence>,
 }
 
@@ -42,28 +51,54 @@ pub struct Sentence {
     /// Counted from 0.
     pub player: u8,
     pub penalty: Penalty,
+    /// More than 255 are told as 255; an end that nobody knows as 0, as boxes do before they count the time.
     pub seconds_left: f64,
 }
 
+impl Default for Standing {
+    /// A match of nobody against nobody that has not begun.
+    fn default() -> Standing {
+        Standing {
+            version: Version::default(),
+            packet_number: 0,
+            game_phase: GamePhase::Normal,
+            state: State::Initial,
+            set_play: SetPlay::None,
+            stopped: false,
+            first_half: true,
+            left: 0,
+            kicking: None,
+            seconds_left: 0.0,
+            secondary_time: 0.0,
+            score: [0, 0],
+            team_numbers: [1, 2],
+            players_per_team: 0,
+            goalkeepers: [None, None],
+            message_budgets: [0, 0],
+            penalties: Vec::new(),
+        }
+    }
+}
+
 impl Standing {
-    /// The packet of version 19 that says this. Home comes first. Nobody is named as goalkeeper, since robots change
-    /// roles, and the budget of messages is 0, since it is not counted.
+    /// The packet that says this.
     pub fn packet(&self) -> ControlPacket {
+        let left = self.left.min(1);
         ControlPacket {
-            version: Version::V19,
+            version: self.version,
             packet_number: self.packet_number,
             players_per_team: self.players_per_team,
             competition_phase: CompetitionPhase::RoundRobin,
             competition_type: CompetitionType::Small,
             stopped: Flag::from(self.stopped),
-            game_phase: GamePhase::Normal,
+            game_phase: self.game_phase,
             state: self.state,
             set_play: self.set_play,
             first_half: Flag::from(self.first_half),
             kicking_team: self.kicking.and_then(|side| self.team_numbers.get(side).copied()),
             secs_remaining: whole_seconds(self.seconds_left),
             secondary_time: whole_seconds(self.secondary_time),
-            teams: [0, 1].map(|side| self.team(side)),
+            teams: [left, 1 - left].map(|side| self.team(side)),
         }
     }
 
@@ -75,18 +110,19 @@ impl Standing {
             slot.penalty = Penalty::None;
             for sentence in self.penalties.iter().filter(|s| (s.side, s.player) == (side, player)) {
                 slot.penalty = sentence.penalty;
-                slot.secs_till_unpenalised = sentence.seconds_left.ceil() as u8;
+                let known = Some(sentence.seconds_left).filter(|seconds| seconds.is_finite());
+                slot.secs_till_unpenalised = known.map_or(0, |seconds| seconds.ceil() as u8);
             }
         }
         TeamInfo {
             team_number: self.team_numbers[side],
             field_player_colour: COLOURS[side],
             goalkeeper_colour: COLOURS[side],
-            goalkeeper: 0,
+            goalkeeper: self.goalkeepers[side].map_or(0, |player| player.saturating_add(1)),
             score: u8::try_from(self.score[side]).unwrap_or(u8::MAX),
             penalty_shot: 0,
             single_shots: 0,
-            message_budget: 0,
+            message_budget: u16::try_from(self.message_budgets[side]).unwrap_or(u16::MAX),
             players,
         }
     }
@@ -108,17 +144,49 @@ mod tests {
         Standing {
             packet_number: 200,
             state: State::Playing,
-            set_play: SetPlay::None,
-            stopped: false,
             first_half: false,
             kicking: Some(1),
             seconds_left: 59.2,
-            secondary_time: 0.0,
             score: [2, 1],
             team_numbers: [70, 71],
             players_per_team: 4,
             penalties: vec![Sentence { side: 1, player: 3, penalty: Penalty::Pushing, seconds_left: 29.5 }],
+            ..Standing::default()
         }
+    }
+
+    #[test]
+    fn the_team_that_defends_the_left_goal_is_listed_first() {
+        for (left, numbers) in [(0, [70, 71]), (1, [71, 70])] {
+            let packet = Standing { left, ..standing() }.packet();
+            assert_eq!(packet.teams.each_ref().map(|team| team.team_number), numbers);
+            assert_eq!(packet.teams.each_ref().map(|team| team.score), [2 - left as u8, 1 + left as u8]);
+            assert_eq!(packet.teams[1 - left].players[3].penalty, Penalty::Pushing);
+            assert_eq!(packet.kicking_team, Some(71));
+        }
+    }
+
+    #[test]
+    fn every_version_is_written_with_the_keepers_the_budgets_and_the_markers() {
+        for version in Version::ALL {
+            let (goalkeepers, message_budgets) = ([Some(2), None], [11_999, 70_000]);
+            let bytes = Standing { version, goalkeepers, message_budgets, ..standing() }.packet().write();
+            let packet = ControlPacket::read(&bytes).unwrap();
+            assert_eq!((bytes.len(), packet.version), (version.packet_len(), version));
+            let [home, away] = packet.teams;
+            assert_eq!([home.goalkeeper, away.goalkeeper], [3, 0]);
+            assert_eq!([home.message_budget, away.message_budget], [11_999, u16::MAX]);
+            assert_eq!([home.field_player_colour, away.field_player_colour], [Colour::Purple, Colour::Blue]);
+            assert_eq!([home.goalkeeper_colour, away.goalkeeper_colour], [Colour::Purple, Colour::Blue]);
+        }
+    }
+
+    #[test]
+    fn a_penalty_whose_end_nobody_knows_has_no_seconds() {
+        let mut standing = standing();
+        standing.penalties[0].seconds_left = f64::INFINITY;
+        let player = standing.packet().teams[1].players[3];
+        assert_eq!((player.penalty, player.secs_till_unpenalised), (Penalty::Pushing, 0));
     }
 
     #[test]

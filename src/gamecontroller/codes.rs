@@ -8,13 +8,14 @@ use binrw::binrw;
 /// The version of a control packet, which is also the league that speaks it.
 #[binrw]
 #[brw(repr = u8)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Version {
     /// Standard Platform League, 2025.
     V18 = 18,
     /// Humanoid Soccer League, the boxes up to 6.
     V19 = 19,
     /// Humanoid Soccer League, the box 7 of RoboCup 2026.
+    #[default]
     V20 = 20,
 }
 

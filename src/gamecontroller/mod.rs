@@ -6,6 +6,7 @@
 pub mod announcement;
 mod codes;
 pub mod control;
+pub mod league;
 pub mod referee_box;
 pub mod status;
 

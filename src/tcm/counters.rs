@@ -14,6 +14,8 @@ pub enum Dropped {
     QueueFull,
     /// It does not fit into as many datagrams as a message may have, or into what a receiver assembles.
     TooLarge,
+    /// It would have gone beyond the team's budget of messages.
+    OverBudget,
     /// No module has registered for it.
     UnknownType,
     /// The module that has registered for it cannot read the data.
@@ -52,8 +54,13 @@ pub struct TypeCounters {
 
 impl Dropped {
     /// All reasons, in their order.
-    pub const ALL: [Dropped; 4] =
-        [Dropped::QueueFull, Dropped::TooLarge, Dropped::UnknownType, Dropped::NotUnserialisable];
+    pub const ALL: [Dropped; 5] = [
+        Dropped::QueueFull,
+        Dropped::TooLarge,
+        Dropped::OverBudget,
+        Dropped::UnknownType,
+        Dropped::NotUnserialisable,
+    ];
 
     /// The place of this reason in [`Dropped::ALL`].
     pub fn index(self) -> usize {
@@ -66,6 +73,7 @@ impl fmt::Display for Dropped {
         f.write_str(match self {
             Dropped::QueueFull => "queue full",
             Dropped::TooLarge => "too large",
+            Dropped::OverBudget => "over budget",
             Dropped::UnknownType => "unknown type",
             Dropped::NotUnserialisable => "not unserialisable",
         })
@@ -197,7 +205,7 @@ mod tests {
             datagrams_sent: 6,
             messages_received: 1,
             bytes_received: 20,
-            dropped: [0; 4],
+            dropped: [0; 5],
         };
         assert_eq!(counters.of(Module::WORLD_MODEL, DataType::POSITION), expected);
         assert_eq!(counters.of(Module::GOALIE, DataType::GOALIE_NEWS).dropped_as(Dropped::QueueFull), 1);

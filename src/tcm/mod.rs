@@ -4,6 +4,7 @@
 //! them and cuts these into datagrams for a carrier: the simulated radio, or UDP. In the Deliver stage it puts arriving
 //! datagrams together again and calls whoever registered for their type. It keeps no connections and repeats nothing.
 
+mod budget;
 pub mod client;
 pub mod counters;
 mod data;
@@ -21,6 +22,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
+pub use budget::{MessageBudgets, Spent};
 pub use data::{Arrived, Data, RegisterData, Registered, Registry, from_postcard, to_postcard};
 pub use directory::Directory;
 pub use external_message::{Address, DataType, ExternalMessage, Module};
@@ -31,8 +33,9 @@ pub use settings::TcmSettings;
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::Sequence;
+use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
-use counters::TypeCounters;
+use counters::{Dropped, TypeCounters};
 use external_message::Entity as Party;
 use fragments::{Assembly, cut};
 use outgoing::Outgoing;
@@ -150,27 +153,42 @@ fn receive_messages(
     }
 }
 
-type Speaking<'a> = (&'a RobotId, &'a mut TcmClient, &'a mut Tcm);
+type Speaking<'a> = (&'a RobotId, Option<&'a Robot>, &'a mut TcmClient, &'a mut Tcm);
 
-/// Takes what the modules want to say and cuts it into datagrams, for every receiver anew.
-fn send_messages(directory: Res<Addresses>, mut on_air: ResMut<OnAir>, mut robots: Query<Speaking>) {
+/// Takes what the modules want to say and cuts it into datagrams, for each receiver.
+fn send_messages(
+    directory: Res<Addresses>,
+    mut budgets: Option<ResMut<MessageBudgets>>,
+    mut on_air: ResMut<OnAir>,
+    mut robots: Query<Speaking>,
+) {
     on_air.0.clear();
-    if robots.iter().all(|(_, client, _)| client.queues.is_empty()) {
+    if robots.iter().all(|(_, _, client, _)| client.queues.is_empty()) {
         return;
     }
-    for (id, mut client, mut tcm) in robots.iter_mut().sort::<&RobotId>() {
+    for (id, robot, mut client, mut tcm) in robots.iter_mut().sort::<&RobotId>() {
+        // What a mute robot says never goes on air, and costs nothing.
+        let mute = robot.is_some_and(|robot| robot.condition.mute);
+        let mut budgets = budgets.as_deref_mut().filter(|_| !mute);
         for (module, data_type) in client.dropped.drain(..) {
             tcm.counters.queue_full(module, data_type);
         }
         let takes = tcm.settings.takes;
         for outgoing in client.queues.take(takes) {
-            tcm.send(*id, outgoing, &directory.0, &mut on_air);
+            tcm.send(*id, outgoing, &directory.0, budgets.as_deref_mut(), &mut on_air);
         }
     }
 }
 
 impl Tcm {
-    fn send(&mut self, from: RobotId, outgoing: Outgoing, directory: &Directory, on_air: &mut OnAir) {
+    fn send(
+        &mut self,
+        from: RobotId,
+        outgoing: Outgoing,
+        directory: &Directory,
+        budgets: Option<&mut MessageBudgets>,
+        on_air: &mut OnAir,
+    ) {
         let Outgoing { to, module, data_type, kind, sequence, bytes } = outgoing;
         let source = Address { entity: party(from), module };
         let destination = Address { entity: to, module };
@@ -179,6 +197,13 @@ impl Tcm {
             self.counters.too_large(module, data_type);
             return;
         };
+        if let Some(budgets) = budgets
+            && directory.receivers(to, source.entity).next().is_some()
+            && !budgets.spend(from, pieces.len())
+        {
+            self.counters.dropped(module, data_type, Dropped::OverBudget);
+            return;
+        }
         self.counter = self.counter.wrapping_add(1);
         let mut datagrams = 0;
         for piece in pieces {

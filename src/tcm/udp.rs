@@ -1,7 +1,7 @@
 //! An easy layer over the sockets of the operating system (TeamChaos, section 3, the UDPConn).
 
 use std::io::{self, ErrorKind};
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, UdpSocket};
 use std::time::{Duration, Instant};
 
 use super::fragments::LARGEST_DATAGRAM;
@@ -65,6 +65,19 @@ impl UdpConn {
         let (socket, address) = open().map_err(|source| UdpError::Bind { address, source })?;
         let buffer = vec![0; largest.min(LARGEST_DATAGRAM) + 1].into();
         Ok(UdpConn { socket, address, buffer, oversized: 0, dropped: 0 })
+    }
+
+    /// Sends to any address of the kind of this one, from a port that is free: to other machines, too, and by broadcast.
+    ///
+    /// # Errors
+    /// If this machine has no addresses of that kind.
+    pub fn speaker(to: SocketAddr) -> Result<UdpConn, UdpError> {
+        let any: IpAddr =
+            if to.is_ipv4() { Ipv4Addr::UNSPECIFIED.into() } else { Ipv6Addr::UNSPECIFIED.into() };
+        let conn = UdpConn::bind(SocketAddr::new(any, 0))?;
+        let source = conn.socket.set_broadcast(true);
+        source.map_err(|source| UdpError::Send { to, source })?;
+        Ok(conn)
     }
 
     /// Where it listens, with the port that was free if 0 was asked for.
@@ -251,6 +264,20 @@ mod tests {
         assert_eq!(one.wait(Duration::from_millis(20)).unwrap(), None);
         one.send(gone, b"hello").unwrap();
         one.send(gone, b"hello").unwrap();
+    }
+
+    #[test]
+    fn a_speaker_reaches_ipv6_and_broadcast_addresses() {
+        let ears = |at: &str| UdpConn::bind(at.parse().unwrap()).unwrap();
+        for (listens, host) in
+            [("127.0.0.1:0", "127.0.0.1"), ("0.0.0.0:0", "127.255.255.255"), ("[::1]:0", "::1")]
+        {
+            let mut ears = ears(listens);
+            let to = SocketAddr::new(host.parse().unwrap(), ears.address().port());
+            UdpConn::speaker(to).unwrap().send(to, b"hello").unwrap();
+            let heard = ears.wait(PATIENCE).unwrap().map(|(_, bytes)| bytes.to_vec());
+            assert_eq!(heard.as_deref(), Some(&b"hello"[..]), "{host}");
+        }
     }
 
     #[test]

@@ -6,18 +6,20 @@ use bevy::ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 use bevy::prelude::*;
 
 use super::FrameSystems;
+use super::calls::Trouble;
 use super::dialogues::Open;
 use super::state::Pace;
 use crate::clock::Clock;
 use crate::game::advance;
 use crate::referee::{MatchState, Phase};
+use crate::wire;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_schedule(AfterTick)
         .edit_schedule(AfterTick, |schedule| {
             schedule.set_executor(SingleThreadedExecutor::new());
         })
-        .add_systems(Update, pass_time.in_set(FrameSystems::Time));
+        .add_systems(Update, (pass_time, announce).chain().in_set(FrameSystems::Time));
 }
 
 /// Run after each tick, to look at the match; what runs here changes nothing of it.
@@ -41,6 +43,14 @@ fn pass_time(world: &mut World) {
         if began.elapsed() > FRAME_BUDGET || is_over(world) {
             break;
         }
+    }
+}
+
+/// The match is announced while it stands still, too.
+fn announce(world: &mut World) {
+    let elapsed = world.resource::<Time<Real>>().delta_secs();
+    if let Some(trouble) = wire::announce_in_real_time(world, elapsed) {
+        world.resource_mut::<Trouble>().0 = Some(trouble);
     }
 }
 
@@ -119,6 +129,35 @@ mod tests {
         assert_eq!(app.world().resource::<Record>().digest, headless.record().digest);
         let shown = app.world_mut().query::<&Shown>().iter(app.world()).count();
         assert_eq!(shown, 8 + 1, "robots and the ball");
+    }
+
+    #[test]
+    fn a_match_is_announced_twice_a_second_on_the_wall_at_any_speed_paused_and_over() {
+        let ears = std::net::UdpSocket::bind("127.0.0.1:0").expect("there is a free port");
+        ears.set_nonblocking(true).expect("sockets can do that");
+        let wires = wire::WirePlan { announce: ears.local_addr().ok(), ..Default::default() };
+        let wires = Box::new(wires);
+        let choice = Choice { half_minutes: Some(0.5), seed: 3, wires, ..Choice::default() };
+        let mut app = window(&choice, Duration::from_millis(100));
+        let heard = |app: &mut App, frames| {
+            (0..frames).for_each(|_| app.update());
+            std::iter::from_fn(|| ears.recv(&mut [0; 300]).ok()).count()
+        };
+        heard(&mut app, 1);
+        for (speed, paused) in [(3, false), (0, false), (3, true)] {
+            (app.world_mut().resource_mut::<Pace>().speed, app.world_mut().resource_mut::<Pace>().paused) =
+                (speed, paused);
+            let (before, count) = (app.world().resource::<Clock>().tick, heard(&mut app, 50));
+            assert!((9..=11).contains(&count), "{count} packets in five seconds at speed {speed}");
+            assert_eq!(app.world().resource::<Clock>().tick == before, paused);
+        }
+        let pace = &mut app.world_mut().resource_mut::<Pace>();
+        (pace.speed, pace.paused) = (9, false);
+        while !is_over(app.world()) {
+            heard(&mut app, 1);
+        }
+        let count = heard(&mut app, 50);
+        assert!((9..=11).contains(&count), "{count} packets in five seconds after the end");
     }
 
     #[test]

@@ -1,98 +1,103 @@
 //! Announces a match in the GameController's own format, so that other tools can follow it.
+//!
+//! Without a window a match is announced twice a second by its own clock, however fast it is played, so that nothing of it
+//! is left out; at half time and at its end also at once. In the window it is announced twice a second by the wall's clock,
+//! as boxes do it, also while it is paused or over.
 
-use std::net::{Ipv4Addr, SocketAddr};
+use std::net::SocketAddr;
 
+use bevy::log::warn;
 use bevy::prelude::*;
 
+use super::announced::{half_time, standing};
 use crate::clock::Clock;
-use crate::gamecontroller::announcement::{Sentence, Standing};
-use crate::gamecontroller::control::{Penalty, SetPlay, State};
-use crate::ids::RobotId;
-use crate::record::Record;
-use crate::referee::{MatchState, Phase};
+use crate::gamecontroller::BoxNews;
+use crate::gamecontroller::announcement::Standing;
+use crate::gamecontroller::control::Version;
+use crate::referee::MatchState;
 use crate::tcm::udp::{UdpConn, UdpError};
 
 /// How often a match is announced, per second: as often as referee boxes speak.
 const HZ: f32 = 2.0;
 /// The numbers that the teams have in the league's format, home first.
-const TEAM_NUMBERS: [u8; 2] = [1, 2];
+pub(super) const TEAM_NUMBERS: [u8; 2] = [1, 2];
 
 pub(super) struct Announcer {
     conn: UdpConn,
     to: SocketAddr,
+    version: Version,
     packet_number: u8,
+    /// Whether the last packet was about the first half.
+    first_half: bool,
+    /// Seconds on the wall since the last packet, where they decide.
+    waited: Option<f32>,
+    /// Why the last packet that was not sent was not.
+    trouble: Option<String>,
+    /// Whether that is still to be told.
+    is_news: bool,
 }
 
 impl Announcer {
-    pub fn open(to: SocketAddr) -> Result<Announcer, UdpError> {
-        let conn = UdpConn::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)))?;
-        Ok(Announcer { conn, to, packet_number: 0 })
+    pub fn open(to: SocketAddr, version: Version) -> Result<Announcer, UdpError> {
+        Ok(Announcer {
+            conn: UdpConn::speaker(to)?,
+            to,
+            version,
+            packet_number: 0,
+            first_half: true,
+            waited: None,
+            trouble: None,
+            is_news: false,
+        })
     }
 
-    pub fn announce_when_due(&mut self, world: &mut World) {
-        if world.resource::<Clock>().is_due(HZ) {
+    /// Announces what is due between two ticks.
+    pub fn announce_after_tick(&mut self, world: &mut World) {
+        let due = self.waited.is_none() && world.resource::<Clock>().is_due(HZ);
+        if due || self.is_half_time(world) {
             self.announce(world);
         }
     }
 
+    /// Announces what is due so many seconds on the wall after the last call. From the first call on the match's own clock
+    /// does not decide any more. Returns why nothing can be announced, once.
+    pub fn announce_in_real_time(&mut self, world: &mut World, elapsed: f32) -> Option<String> {
+        let waited = self.waited.map_or(elapsed, |waited| waited + elapsed);
+        self.waited = Some(waited);
+        if waited >= 1.0 / HZ {
+            self.announce(world);
+        }
+        std::mem::take(&mut self.is_news).then(|| self.trouble.clone()).flatten()
+    }
+
+    /// A box tells of half time itself.
+    fn is_half_time(&self, world: &World) -> bool {
+        let state = world.resource::<MatchState>();
+        self.first_half && state.half > 1 && !world.contains_resource::<BoxNews>()
+    }
+
     pub fn announce(&mut self, world: &mut World) {
-        let robots: Vec<RobotId> =
-            world.resource::<Record>().driven.iter().map(|(robot, _)| *robot).collect();
-        let standing = standing(world.resource::<MatchState>(), &robots, self.packet_number);
-        self.packet_number = self.packet_number.wrapping_add(1);
+        let is_half_time = self.is_half_time(world);
+        let standing = standing(world);
+        if is_half_time {
+            half_time(&standing).into_iter().for_each(|standing| self.send(standing));
+        }
+        self.send(standing);
+        self.waited = self.waited.map(|_| 0.0);
+    }
+
+    fn send(&mut self, standing: Standing) {
+        let (version, packet_number) = (self.version, self.packet_number);
+        self.first_half = standing.first_half;
+        self.packet_number = packet_number.wrapping_add(1);
+        let standing = Standing { version, packet_number, team_numbers: TEAM_NUMBERS, ..standing };
         // Whether anybody listens there is not known.
-        let _ = self.conn.send(self.to, &standing.packet().write());
-    }
-}
-
-fn standing(state: &MatchState, robots: &[RobotId], packet_number: u8) -> Standing {
-    let players = robots.iter().map(|robot| robot.number + 1).max().unwrap_or(0);
-    let sentences = state.removed.iter().map(|removal| Sentence {
-        side: removal.robot.team.index(),
-        player: removal.robot.number,
-        penalty: Penalty::Manual,
-        seconds_left: removal.seconds_left,
-    });
-    Standing {
-        packet_number,
-        state: match state.phase {
-            Phase::Initial => State::Initial,
-            Phase::Ready => State::Ready,
-            Phase::Set => State::Set,
-            Phase::Playing => State::Playing,
-            Phase::Finished => State::Finished,
-        },
-        set_play: SetPlay::None,
-        stopped: false,
-        first_half: state.half == 1,
-        kicking: Some(state.kick_off.index()),
-        seconds_left: state.time_left,
-        secondary_time: 0.0,
-        score: state.score,
-        team_numbers: TEAM_NUMBERS,
-        players_per_team: players,
-        penalties: sentences.collect(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::gamecontroller::control::ControlPacket;
-    use crate::gamecontroller::referee_box::RefereeBox;
-    use crate::ids::Team;
-    use crate::referee::RuleBook;
-
-    #[test]
-    fn what_is_announced_is_what_another_match_would_follow() {
-        let robots = [RobotId::new(Team::Home, 0), RobotId::new(Team::Away, 3)];
-        let mut state = MatchState::in_play(Team::Away, &RuleBook::default(), true);
-        state.score = [2, 1];
-        let bytes = standing(&state, &robots, 7).packet().write();
-        assert_eq!(ControlPacket::read(&bytes).map(|packet| packet.packet_number), Ok(7));
-        let view = RefereeBox::new(Some(TEAM_NUMBERS), 4).hear(&bytes, 0);
-        let view = view.expect("it is a good packet").expect("it is news");
-        assert_eq!((view.state, view.score, view.kicking), (State::Playing, [2, 1], Some(1)));
-        assert_eq!((view.seconds_left, view.first_half), (600, true));
+        if let Err(error) = self.conn.send(self.to, &standing.packet().write()) {
+            let trouble = format!("the match cannot be announced: {error}");
+            if self.trouble.as_ref() != Some(&trouble) {
+                warn!("{trouble}");
+                (self.trouble, self.is_news) = (Some(trouble), true);
+            }
+        }
     }
 }

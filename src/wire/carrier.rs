@@ -184,7 +184,7 @@ impl UdpCarrier {
     }
 }
 
-fn transmit(
+pub(super) fn transmit(
     clock: Res<Clock>,
     addresses: Res<Addresses>,
     mut carrier: ResMut<UdpCarrier>,

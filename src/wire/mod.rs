@@ -1,15 +1,17 @@
 //! Real sockets: everything of a match that crosses a network. Packets are exchanged between two ticks, apart from the TCM's
 //! datagrams, which the UDP carrier brings and takes within a tick as the simulated radio does. A socket reads only the
-//! address that it is bound to, by default on this machine.
+//! address that it is bound to, by default on this machine; one that only speaks reads nothing.
 
+mod announced;
 mod announcer;
 mod carrier;
+mod league;
 mod protocol;
 mod referee_box;
 mod remote;
 mod robot;
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 
 use bevy::prelude::*;
 
@@ -20,16 +22,19 @@ pub use robot::{RobotProcess, RobotReport};
 
 use crate::data::DataError;
 use crate::game::MatchPlan;
+use crate::gamecontroller::control::Version;
 use crate::ids::RobotId;
-use crate::tcm::Addresses;
 use crate::tcm::external_message::Entity as Party;
 use crate::tcm::udp::UdpError;
-use announcer::Announcer;
+use crate::tcm::{Addresses, MessageBudgets};
+use announcer::{Announcer, TEAM_NUMBERS};
+use league::LeaguePorts;
 use referee_box::BoxSocket;
 use remote::RemoteRobots;
 
 pub(super) fn plugin(app: &mut App) {
     carrier::plugin(app);
+    league::plugin(app);
     protocol::plugin(app);
 }
 
@@ -44,6 +49,10 @@ pub struct WirePlan {
     pub gamecontroller: Option<SocketAddr>,
     /// Where the match is announced to, in the GameController's own format.
     pub announce: Option<SocketAddr>,
+    /// The host at whose league's ports each team message arrives, too; then teams keep to the league's limits.
+    pub league_ports: Option<IpAddr>,
+    /// The version of what is announced and of the league's limits.
+    pub version: Version,
 }
 
 /// What cannot be done with a network.
@@ -88,11 +97,20 @@ pub fn open(world: &mut World, plan: &MatchPlan) -> Result<(), WireError> {
         world.insert_resource(crate::gamecontroller::BoxNews::default());
     }
     if let Some(address) = wanted.announce {
-        wires.announcer = Some(Announcer::open(address)?);
+        wires.announcer = Some(Announcer::open(address, wanted.version)?);
     }
     if !wanted.remote.is_empty() {
         wires.remote = Some(RemoteRobots::open(&directory, &wanted.remote, plan)?);
         remote::hand_over(world, &wanted.remote);
+    }
+    let ports = wanted.league_ports.map(|host| LeaguePorts::open(host, TEAM_NUMBERS)).transpose()?;
+    if wanted.announce.is_some() || ports.is_some() {
+        let version = wanted.version;
+        let budgets = MessageBudgets::counting(version.message_budget(), version.extra_time_budget());
+        world.insert_resource(if ports.is_some() { budgets.limited_to(plan.robots()) } else { budgets });
+    }
+    if let Some(ports) = ports {
+        world.insert_resource(ports);
     }
     if let Some(carrier) = carrier {
         world.insert_resource(carrier);
@@ -105,6 +123,8 @@ pub fn open(world: &mut World, plan: &MatchPlan) -> Result<(), WireError> {
 pub fn close(world: &mut World) {
     world.remove_resource::<Wires>();
     world.remove_resource::<UdpCarrier>();
+    world.remove_resource::<LeaguePorts>();
+    world.remove_resource::<MessageBudgets>();
     world.remove_resource::<crate::gamecontroller::BoxNews>();
 }
 
@@ -130,9 +150,16 @@ pub fn exchange(world: &mut World) {
             remote.exchange(world);
         }
         if let Some(announcer) = &mut wires.announcer {
-            announcer.announce_when_due(world);
+            announcer.announce_after_tick(world);
         }
     });
+}
+
+/// Announces the match twice a second on the wall, so many seconds after the last call: in the window, whether ticks run or
+/// not. Returns why it cannot be announced, once.
+pub fn announce_in_real_time(world: &mut World, elapsed: f32) -> Option<String> {
+    with_wires(world, |world, wires| wires.announcer.as_mut()?.announce_in_real_time(world, elapsed))
+        .flatten()
 }
 
 /// Tells remote robots that the match is over, and counts the datagrams that have arrived since its last tick.

@@ -62,6 +62,8 @@ pub struct Command {
     pub ball: Option<Vec2>,
     /// Datagrams to robots that it has sent so far, and those from robots that it has received.
     pub datagrams: (u64, u64),
+    /// Team messages that it has sent so far, each once.
+    pub said: u64,
 }
 
 /// The datagrams that bring data from one end of the link to the other, as the next message of their source.
@@ -145,6 +147,7 @@ mod tests {
             pose: Pose::new(1.0, 2.0, 0.1),
             ball: Some(Vec2::X),
             datagrams: (7, 8),
+            said: 5,
         }
     }
 

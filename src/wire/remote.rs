@@ -24,7 +24,7 @@ use crate::sense::{Odometry, Percepts};
 use crate::strategy::{Part, Strategies, Strategy};
 use crate::tcm::fragments::Assembly;
 use crate::tcm::udp::UdpConn;
-use crate::tcm::{Data, Directory, HOST, as_robot, party};
+use crate::tcm::{Data, Directory, HOST, MessageBudgets, as_robot, party};
 use crate::teamwork::Role;
 use crate::world_model::{BallBelief, WorldModel};
 
@@ -64,6 +64,8 @@ struct Remote {
     figures: RemoteFigures,
     /// The tick of the last answer.
     last: Option<u64>,
+    /// Team messages that it had sent then.
+    said: u64,
 }
 
 impl Remote {
@@ -91,7 +93,7 @@ impl RemoteRobots {
             let entity = party(robot);
             let address = directory.address_of(entity).ok_or(WireError::NoAddress(entity))?;
             let figures = RemoteFigures { robot, told: 0, answered: 0, missed: 0, sent: 0, received: 0 };
-            Ok((robot, Remote { address, figures, last: None }))
+            Ok((robot, Remote { address, figures, last: None, said: 0 }))
         };
         Ok(RemoteRobots {
             conn: UdpConn::bind(host)?,
@@ -200,6 +202,10 @@ impl RemoteRobots {
         remote.last = Some(command.tick);
         remote.figures.answered += 1;
         (remote.figures.sent, remote.figures.received) = command.datagrams;
+        let said = command.said.saturating_sub(std::mem::replace(&mut remote.said, command.said));
+        if let Some(mut budgets) = world.get_resource_mut::<MessageBudgets>() {
+            budgets.count(robot.team, said);
+        }
         let Some(entity) = entity_of(world, robot) else { return };
         let strategies = world.resource::<Strategies>().clone();
         let known = activity(command, strategies.of(robot.team));

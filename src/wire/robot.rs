@@ -25,7 +25,7 @@ use crate::sense::{Odometry, Percepts};
 use crate::tcm::external_message::Entity as Party;
 use crate::tcm::fragments::Assembly;
 use crate::tcm::udp::UdpConn;
-use crate::tcm::{Addresses, Data, HOST, Incoming, Tcm, party};
+use crate::tcm::{Addresses, Data, HOST, Incoming, MessageBudgets, Tcm, party};
 use crate::teamwork::Role;
 use crate::world_model::WorldModel;
 
@@ -70,6 +70,8 @@ impl RobotProcess {
         let entity = start_mind(app.world_mut(), plan, id);
         let conns = BTreeMap::from([(id, UdpConn::bind(bind)?)]);
         app.insert_resource(UdpCarrier::of(conns));
+        // The match keeps the team's budget; the robot tells it what there is to count.
+        app.insert_resource(MessageBudgets::counting(0, 0));
         let sensors = Assembly::new(plan.tcm.limits(&Clock::default()));
         let counter = unused_counter();
         if let Some(mut tcm) = app.world_mut().get_mut::<Tcm>(entity) {
@@ -187,6 +189,7 @@ impl RobotProcess {
             pose: model.pose,
             ball: model.ball.map(|ball| ball.position),
             datagrams: (figures.sent, figures.received),
+            said: world.resource::<MessageBudgets>().spent(self.id.team).counted,
         })
     }
 }

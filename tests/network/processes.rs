@@ -114,13 +114,17 @@ fn play(remote: &[RobotId], minutes: &str) -> Option<Played> {
     plan.addresses = Some(free_directory(&plan));
     let folder = tempfile::tempdir().expect("a temporary folder");
     let addresses = write_addresses(&plan, folder.path());
+    let ears = stranger().local_addr().expect("it is bound").to_string();
     // First the robots, so that none of them speaks to one that does not listen yet.
     let start = |robot: &RobotId| Process::robot(*robot, address_of(&plan, *robot), &addresses);
     let mut robots = remote.iter().map(start).collect::<Option<Vec<_>>>()?;
     let names: Vec<String> = remote.iter().map(|robot| robot.to_string().replace(' ', ":")).collect();
     let elsewhere = names.iter().flat_map(|name| ["--remote", name]);
-    let options: Vec<&str> =
-        ["run", "--json", "--minutes", minutes].into_iter().chain(TALKATIVE).chain(elsewhere).collect();
+    let options: Vec<&str> = ["run", "--json", "--minutes", minutes, "--announce", &ears]
+        .into_iter()
+        .chain(TALKATIVE)
+        .chain(elsewhere)
+        .collect();
     let output = Process::start(&options, &addresses).end();
     if String::from_utf8_lossy(&output.stderr).contains("cannot listen at") {
         return None;
@@ -168,6 +172,10 @@ fn a_match_between_processes_is_played_to_its_end_and_no_datagram_is_lost() {
     let at_home = || at_home.iter().map(|(_, robot)| robot);
     let away = || away.iter().map(|(_, robot)| robot).chain([&network["here"]]);
     assert_eq!(sum(at_home(), "sent"), sum(at_home(), "received"), "{robots:?}");
+    // Each message that the league counts went to one to three mates.
+    let (counted, sent) = (&result["budgets"][0]["counted"], sum(at_home(), "sent"));
+    let counted = counted.as_u64().expect("the match is announced");
+    assert!((sent / 4..=sent).contains(&counted), "{counted} messages are {sent} datagrams");
     assert_eq!(sum(away(), "sent"), sum(away(), "received"), "{robots:?}, {network}");
 }
 

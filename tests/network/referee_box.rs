@@ -1,4 +1,4 @@
-//! Matches that a referee box referees, and matches that are announced as if by one.
+//! Matches that a referee box referees.
 
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 
@@ -6,8 +6,8 @@ use bevy::prelude::*;
 use touchline::game::{Match, MatchPlan};
 use touchline::gamecontroller::BoxNews;
 use touchline::gamecontroller::announcement::{Sentence, Standing};
-use touchline::gamecontroller::control::{Penalty, SetPlay, State};
-use touchline::gamecontroller::referee_box::{Heard, RefereeBox};
+use touchline::gamecontroller::control::{ControlPacket, GamePhase, Penalty, SetPlay, State};
+use touchline::gamecontroller::referee_box::Heard;
 use touchline::gamecontroller::status::{PORT, STATUS_LEN, StatusPacket};
 use touchline::ids::{RobotId, Team};
 use touchline::pitch::Pitch;
@@ -18,6 +18,7 @@ use touchline::teamwork::Booking;
 use touchline::wire::WirePlan;
 use touchline::world_model::WorldModel;
 
+use super::announced::{announced, next};
 use super::{open, plan, stranger, talkative};
 use crate::support::ball;
 
@@ -36,22 +37,15 @@ impl Refereed {
     fn new(plan: MatchPlan) -> Refereed {
         // Any address here is moved to a free one.
         let gamecontroller = Some(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
-        let plan = MatchPlan { wires: WirePlan { gamecontroller, ..WirePlan::default() }, ..plan };
+        let plan = MatchPlan { wires: WirePlan { gamecontroller, ..plan.wires }, ..plan };
         let players = plan.teams[0].strategy.players.len() as u8;
         let (game, plan) = open(&plan);
         let says = Standing {
-            packet_number: 0,
-            state: State::Initial,
-            set_play: SetPlay::None,
-            stopped: false,
-            first_half: true,
             kicking: Some(0),
             seconds_left: 600.0,
-            secondary_time: 0.0,
-            score: [0, 0],
             team_numbers: TEAMS,
             players_per_team: players,
-            penalties: Vec::new(),
+            ..Standing::default()
         };
         let to = plan.wires.gamecontroller.expect("it was asked for");
         Refereed { game, socket: stranger(), to, says }
@@ -111,12 +105,12 @@ impl Refereed {
 }
 
 /// Puts the ball somewhere to rest.
-fn put_ball(game: &mut Match, at: Vec2) {
+pub(super) fn put_ball(game: &mut Match, at: Vec2) {
     let put = Request::Body(Shove::Ball { at, velocity: Vec2::ZERO });
     game.world_mut().resource_mut::<Requests>().ask(put);
 }
 
-const IN_THE_EASTERN_GOAL: Vec2 = Vec2::new(4.7, 0.0);
+pub(super) const IN_THE_EASTERN_GOAL: Vec2 = Vec2::new(4.7, 0.0);
 
 #[test]
 fn a_box_leads_a_match_through_its_states_to_its_end() {
@@ -212,7 +206,7 @@ fn what_is_no_packet_about_this_match_is_counted_and_not_followed() {
     let over = Standing { packet_number: over.packet_number + 1, score: [9, 9], ..over };
     let elsewhere = Standing { team_numbers: [12, 35], ..over.clone() }.packet().write();
     let version = [b"RGme\x15", &over.packet().write()[5..]].concat();
-    let short = &over.packet().write()[..197];
+    let short = &over.packet().write()[..157];
     let late = Standing { packet_number: refereed.says.packet_number - 1, ..over.clone() }.packet().write();
     for bytes in [&b"hello"[..], &version, short, &elsewhere, &late] {
         refereed.send(bytes);
@@ -261,56 +255,6 @@ fn a_box_is_told_twice_a_second_how_the_robots_are() {
     assert_eq!(told, 4 * 8);
 }
 
-/// A match that is announced, and the socket to which it is.
-fn announced(plan: MatchPlan) -> (Match, UdpSocket) {
-    let socket = stranger();
-    socket.set_nonblocking(true).expect("sockets can do that");
-    let announce = Some(socket.local_addr().expect("it is bound"));
-    let (game, _) = open(&MatchPlan { wires: WirePlan { announce, ..WirePlan::default() }, ..plan });
-    (game, socket)
-}
-
-fn next(socket: &UdpSocket) -> Option<Vec<u8>> {
-    let mut bytes = [0; 300];
-    socket.recv(&mut bytes).ok().map(|length| bytes[..length].to_vec())
-}
-
-#[test]
-fn a_match_that_is_announced_can_be_followed_with_its_score_state_and_seconds() {
-    let (mut game, socket) = announced(talkative(0.1));
-    let mut follower = RefereeBox::new(Some([1, 2]), 4);
-    let (mut shot, mut states) = (false, Vec::new());
-    while !game.is_over() {
-        if game.state().phase == Phase::Playing && !shot {
-            put_ball(&mut game, IN_THE_EASTERN_GOAL);
-            shot = true;
-        }
-        let before = game.state().clone();
-        let clock = game.clock();
-        game.tick();
-        let packet = next(&socket);
-        assert_eq!(packet.is_some(), clock.tick.is_multiple_of(30), "twice a second");
-        let Some(packet) = packet else { continue };
-        let view = follower.hear(&packet, (1000.0 * clock.now()) as u64);
-        let view = view.expect("it is a packet about this match").expect("it is news");
-        states.push(view.state);
-        assert_eq!((view.score, view.first_half), (before.score, before.half == 1));
-        assert_eq!(view.kicking, Some(before.kick_off.index()));
-        assert_eq!(f64::from(view.seconds_left), before.time_left.ceil());
-        let phase = [State::Initial, State::Ready, State::Set, State::Playing];
-        assert_eq!(Some(&view.state), phase.get(before.phase as usize));
-        let off: Vec<_> = before.removed.iter().map(|removal| removal.robot).collect();
-        let penalised = view.penalties.iter().zip(Team::BOTH);
-        let penalised =
-            penalised.flat_map(|(of, team)| of.iter().map(move |it| RobotId::new(team, it.player)));
-        assert_eq!(penalised.collect::<Vec<_>>(), off);
-    }
-    assert_eq!(game.state().score, [1, 0], "there was something to follow");
-    for state in [State::Ready, State::Set, State::Playing] {
-        assert!(states.contains(&state), "{states:?}");
-    }
-}
-
 #[test]
 fn one_match_can_referee_another() {
     let (mut leader, socket) = announced(talkative(0.1));
@@ -322,16 +266,50 @@ fn one_match_can_referee_another() {
         }
         let was = leader.state().clone();
         leader.tick();
-        let packet = next(&socket);
-        packet.iter().for_each(|packet| follower.send(packet));
+        let packets: Vec<_> = std::iter::from_fn(|| next(&socket)).collect();
+        packets.iter().for_each(|packet| follower.send(packet));
         follower.ticks(1);
-        if packet.is_some() {
+        if !packets.is_empty() {
             let is = follower.game.state();
             assert_eq!((is.phase, is.half, is.score), (was.phase, was.half, was.score));
             assert_eq!((is.kick_off, is.home_attacks), (was.kick_off, was.home_attacks));
-            followed += 1;
+            followed += packets.len() as u64;
         }
     }
     assert!(followed > 20, "{followed}");
     assert_eq!((follower.heard().news, follower.game.state().score), (followed, [1, 0]));
+}
+
+#[test]
+fn a_match_under_a_box_is_announced_with_the_stops_set_plays_phases_and_penalties_of_the_box() {
+    let ears = stranger();
+    ears.set_nonblocking(true).expect("sockets can do that");
+    let announce = Some(ears.local_addr().expect("it is bound"));
+    let wires = WirePlan { announce, ..WirePlan::default() };
+    let mut refereed = Refereed::playing(MatchPlan { wires, ..talkative(10.0) });
+    let pushed = Sentence { side: 1, player: 2, penalty: Penalty::Pushing, seconds_left: 17.0 };
+    refereed.say(|says| {
+        (says.set_play, says.stopped, says.kicking) = (SetPlay::CornerKick, true, Some(1));
+        (says.secondary_time, says.seconds_left) = (31.0, -2.0);
+        says.penalties = vec![pushed];
+    });
+    refereed.ticks(60);
+    let last = std::iter::from_fn(|| next(&ears)).last().expect("it is announced");
+    let told = ControlPacket::read(&last).expect("it is a control packet");
+    let said = refereed.says.packet();
+    assert_eq!(
+        (told.state, told.set_play, told.stopped.is_set()),
+        (State::Playing, SetPlay::CornerKick, true)
+    );
+    assert_eq!(told.kicking_team, Some(told.teams[1].team_number));
+    assert_eq!((told.secs_remaining, told.secondary_time), (-2, 31));
+    for (told, said) in told.teams.iter().zip(&said.teams) {
+        assert_eq!(told.players, said.players);
+    }
+    refereed
+        .say(|says| (says.state, says.game_phase, says.kicking) = (State::Initial, GamePhase::TimeOut, None));
+    refereed.ticks(60);
+    let last = std::iter::from_fn(|| next(&ears)).last().expect("it is announced");
+    let told = ControlPacket::read(&last).expect("it is a control packet");
+    assert_eq!((told.state, told.game_phase, told.kicking_team), (State::Initial, GamePhase::TimeOut, None));
 }

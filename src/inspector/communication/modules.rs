@@ -8,7 +8,7 @@ use crate::inspector::tints;
 use crate::tcm::counters::{Dropped, TypeCount};
 use crate::tcm::{DataType, Module};
 
-const TYPES: [Column; 11] = [
+const TYPES: [Column; 12] = [
     words("module", 108.0, "The part of a robot's program that sends and receives"),
     words("type", 92.0, "The type of the data, as it was registered"),
     figures("sent", 50.0, "Messages sent"),
@@ -18,6 +18,7 @@ const TYPES: [Column; 11] = [
     figures("kB in", 50.0, "Data of the messages received, in kilobytes"),
     figures("queue full", 76.0, "Dropped before sending: the module's queue had no room"),
     figures("too large", 68.0, "Dropped before sending: more fragments than a message may have"),
+    figures("over budget", 78.0, "Not sent: it would have gone beyond the team's budget of messages"),
     figures("unknown", 64.0, "Dropped on arrival: nobody has registered for the type"),
     figures("unreadable", 78.0, "Dropped on arrival: the data could not be unserialised"),
 ];
@@ -79,8 +80,9 @@ fn show_types(ui: &mut egui::Ui, tally: &Tally, names: Names) {
     );
 }
 
-fn cells(module: String, name: String, count: &TypeCount) -> [String; 11] {
-    let [full, large, unknown, unreadable] = Dropped::ALL.map(|reason| count.dropped_as(reason).to_string());
+fn cells(module: String, name: String, count: &TypeCount) -> [String; 12] {
+    let [full, large, over, unknown, unreadable] =
+        Dropped::ALL.map(|reason| count.dropped_as(reason).to_string());
     [
         module,
         name,
@@ -91,6 +93,7 @@ fn cells(module: String, name: String, count: &TypeCount) -> [String; 11] {
         kilobytes(count.bytes_received),
         full,
         large,
+        over,
         unknown,
         unreadable,
     ]
@@ -126,11 +129,11 @@ mod tests {
 
     #[test]
     fn a_row_has_a_cell_for_each_column() {
-        let count = TypeCount { bytes_sent: 1234, dropped: [1, 2, 3, 4], ..TypeCount::default() };
+        let count = TypeCount { bytes_sent: 1234, dropped: [1, 2, 3, 4, 5], ..TypeCount::default() };
         let cells = cells("goalie".into(), "goalie".into(), &count);
         assert_eq!(cells.len(), TYPES.len());
         assert_eq!(cells[3], "1.2");
-        assert_eq!(cells[7..], ["1", "2", "3", "4"]);
+        assert_eq!(cells[7..], ["1", "2", "3", "4", "5"]);
     }
 
     #[test]
