@@ -1,12 +1,14 @@
 //! Matches that cross a network: team messages over real sockets, robots in other processes, referee boxes.
 
 mod announced;
+mod greeting;
 mod league;
 mod processes;
 mod referee_box;
 
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
 
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
@@ -16,7 +18,7 @@ use touchline::tcm::external_message::Entity as Party;
 use touchline::tcm::fragments::{Assembly, Limits, USUAL_DATAGRAM, cut};
 use touchline::tcm::udp::UdpError;
 use touchline::tcm::{Address, Data, DataType, Directory, ExternalMessage, HOST, Module, Tcm, party};
-use touchline::wire::{self, CarrierFigures, UdpCarrier, WireError, WirePlan};
+use touchline::wire::{self, CarrierFigures, Greeting, UdpCarrier, WireError, WirePlan};
 
 use crate::support::{assets, digest_of};
 
@@ -84,6 +86,12 @@ fn open(plan: &MatchPlan) -> (Match, MatchPlan) {
             Err(error) => panic!("{error}"),
         }
     }
+}
+
+/// Waits until all robots in other processes take part; they come for certain.
+fn greet(game: &mut Match) {
+    let greeting = wire::greet(game.world_mut(), Duration::MAX, &mut |_| true);
+    assert_eq!(greeting.expect("they come"), Greeting::Done);
 }
 
 fn by_udp(plan: MatchPlan) -> MatchPlan {
@@ -211,7 +219,7 @@ fn an_address_that_is_taken_or_missing_is_named_and_no_socket_stays_open() {
     let moved = changed(&|who, at| Some(if who == party(HOME_1) { taken_at } else { at }));
     let missing = changed(&|who, at| (who != party(HOME_1)).then_some(at));
     for (plan, expected) in [
-        (moved, format!("cannot listen at {taken_at}: ")),
+        (moved, format!("cannot listen at {taken_at}: the port is taken")),
         (missing, "home 1 has no address: add it to the addresses".to_owned()),
     ] {
         let mut game = Match::new(&plan);

@@ -8,6 +8,7 @@ mod run;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use clap::{ArgGroup, Args, Parser, Subcommand};
 
@@ -15,7 +16,7 @@ use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::gamecontroller::control::Version;
 use crate::ids::RobotId;
-use crate::wire::WirePlan;
+use crate::wire::{self, WirePlan};
 
 /// Robot soccer between teams of behaviour-based robots. Without a command it opens the window.
 #[derive(Debug, Parser)]
@@ -75,6 +76,10 @@ struct MatchOptions {
     /// robots then keep to the league's budget and length of messages.
     #[arg(long, value_name = "HOST", conflicts_with = "remote")]
     league_ports: Option<IpAddr>,
+    /// How many seconds `run` waits for robots in other processes before the match begins, and `robot` for word of its match;
+    /// 20 if not given.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    patience: Option<Duration>,
     /// Equal seeds give equal matches; 1 if not given.
     #[arg(long)]
     seed: Option<u64>,
@@ -107,6 +112,10 @@ impl MatchOptions {
         }
     }
 
+    fn patience(&self) -> Duration {
+        self.patience.unwrap_or(wire::PATIENCE)
+    }
+
     fn plan(&self, assets: &AssetFolder, pilot: Option<RobotId>) -> Result<MatchPlan, DataError> {
         MatchPlan::read(assets, &self.choice(pilot))
     }
@@ -116,6 +125,12 @@ impl MatchOptions {
 fn version(text: &str) -> Result<Version, String> {
     let version = text.parse().ok().and_then(Version::from_number);
     version.ok_or_else(|| "must be 18, 19 or 20".into())
+}
+
+/// Reads a time of up to a day.
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f32>().ok().filter(|seconds| (0.0..=86_400.0).contains(seconds));
+    seconds.map(Duration::from_secs_f32).ok_or_else(|| "must be a number of seconds, from 0 to 86400".into())
 }
 
 /// The radio that is none: team messages go by UDP.

@@ -30,7 +30,7 @@ impl Play {
         let plan = self.options.plan(assets, self.pilot)?;
         if let Some(missing) = missing_for_a_window() {
             eprintln!("{missing}, so the match is played headless");
-            super::run::play_headless(&plan, false)?;
+            super::run::play_headless(&plan, false, self.options.patience())?;
             return Ok(ExitCode::SUCCESS);
         }
         Ok(open_window(assets, Wanted::Match(self.options.choice(self.pilot))))

@@ -9,7 +9,7 @@ use super::MatchOptions;
 use crate::data::{AssetFolder, DataError};
 use crate::ids::{RobotId, Team};
 use crate::tcm::party;
-use crate::wire::{RobotProcess, WireError};
+use crate::wire::{RobotEnd, RobotProcess, WireError};
 
 #[derive(Args, Debug)]
 pub(super) struct Robot {
@@ -55,7 +55,8 @@ impl Robot {
         let entity = party(id);
         let bind = self.bind.or_else(|| plan.directory().address_of(entity));
         let bind = bind.ok_or(WireError::NoAddress(entity))?;
-        let report = RobotProcess::open(&plan, id, bind)?.play();
+        let patience = self.options.patience();
+        let report = RobotProcess::open(&plan, id, bind)?.play(patience, &|| false)?;
         if self.json {
             println!("{}", serde_json::to_string_pretty(&report).unwrap_or_else(|error| error.to_string()));
         } else {
@@ -66,6 +67,10 @@ impl Robot {
                 "{} from computers, {} from nobody we know, {} not sent",
                 figures.from_computers, figures.foreign, figures.refused
             );
+        }
+        if report.ending == RobotEnd::MatchGone {
+            eprintln!("{id} has heard nothing of its match for {} s", patience.as_secs_f32());
+            return Ok(ExitCode::FAILURE);
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -15,7 +15,7 @@ use crate::radio::{LinkCounters, Traffic};
 use crate::record::BookingFigures;
 use crate::referee::RuleBook;
 use crate::tcm::{MessageBudgets, Spent};
-use crate::wire::{self, CarrierFigures, RemoteFigures, UdpCarrier};
+use crate::wire::{self, Awaited, CarrierFigures, RemoteFigures, UdpCarrier};
 
 #[derive(Args, Debug, Default)]
 pub(super) struct Run {
@@ -133,21 +133,21 @@ impl Messages {
 impl Run {
     pub(super) fn run(&self, assets: &AssetFolder) -> Result<ExitCode, DataError> {
         let plan = self.options.plan(assets, None)?;
-        play_headless(&plan, self.json)?;
+        play_headless(&plan, self.json, self.options.patience())?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Plays a match to its end and prints the result.
+/// Plays a match to its end and prints the result; waits so long for its robots in other processes.
 ///
 /// # Errors
 /// If the match needs a network that is not to be had.
-pub(super) fn play_headless(plan: &MatchPlan, json: bool) -> Result<(), DataError> {
+pub(super) fn play_headless(plan: &MatchPlan, json: bool, patience: Duration) -> Result<(), DataError> {
     let bar = progress(plan);
     let started = Instant::now();
     let mut game = Match::new(plan);
     wire::open(game.world_mut(), plan)?;
-    wire::greet(game.world_mut())?;
+    await_robots(&mut game, patience)?;
     while !game.is_over() {
         if wire::is_in_real_time(plan) {
             wait_until(started + Duration::from_secs_f64(game.clock().now()));
@@ -169,6 +169,26 @@ pub(super) fn play_headless(plan: &MatchPlan, json: bool) -> Result<(), DataErro
     }
     Ok(())
 }
+
+/// Waits for robots in other processes, and says so if it takes more than a moment.
+fn await_robots(game: &mut Match, patience: Duration) -> Result<(), DataError> {
+    let begin = Instant::now();
+    let mut is_said = false;
+    let mut goes_on = |awaited: &[Awaited]| {
+        if !is_said && begin.elapsed() > MOMENT {
+            for Awaited { robot, address, .. } in awaited {
+                eprintln!("waiting for {robot} at {address}; start it with `{}`", wire::start(*robot));
+            }
+            is_said = true;
+        }
+        true
+    };
+    wire::greet(game.world_mut(), patience, &mut goes_on)?;
+    Ok(())
+}
+
+/// Robots that were started before their match answer within this time.
+const MOMENT: Duration = Duration::from_millis(400);
 
 /// Sleeps until then; not at all, if it is past.
 fn wait_until(then: Instant) {

@@ -59,6 +59,13 @@ impl Directory {
         self.entries().find(|&(there, _)| there == entity).map(|(_, address)| address)
     }
 
+    /// Says where an entity is, whatever was said before.
+    pub fn put(&mut self, entity: Entity, address: SocketAddr) {
+        self.entries.retain(|&(there, _)| there != entity);
+        self.entries.push((entity, address));
+        self.entries.sort_by_key(|&(entity, _)| entity);
+    }
+
     /// Who is at an address. An IPv4 address that is written as an IPv6 address is the same.
     pub fn entity_at(&self, address: SocketAddr) -> Option<Entity> {
         self.entries().find(|&(_, there)| is_same(there, address)).map(|(entity, _)| entity)

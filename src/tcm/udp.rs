@@ -20,12 +20,19 @@ pub struct UdpConn {
 /// What the operating system refused, and for which address.
 #[derive(Debug, thiserror::Error)]
 pub enum UdpError {
-    #[error("cannot listen at {address}: {source}")]
+    #[error("cannot listen at {address}: {}", why(source))]
     Bind { address: SocketAddr, source: io::Error },
     #[error("cannot send to {to}: {source}")]
     Send { to: SocketAddr, source: io::Error },
     #[error("cannot receive at {at}: {source}")]
     Receive { at: SocketAddr, source: io::Error },
+}
+
+fn why(source: &io::Error) -> String {
+    match source.kind() {
+        ErrorKind::AddrInUse => "the port is taken, perhaps by another match or one of its robots".into(),
+        _ => source.to_string(),
+    }
 }
 
 /// What became of one try to receive.

@@ -29,6 +29,9 @@ pub struct AfterTick;
 /// The time in one frame after which no further tick is begun: at 64 times on a slow machine the window stays responsive.
 const FRAME_BUDGET: Duration = Duration::from_millis(25);
 
+/// The time in one frame that its ticks wait for robots in other processes.
+const ROBOTS_BUDGET: Duration = Duration::from_millis(20);
+
 fn pass_time(world: &mut World) {
     if world.resource::<Open>().question.is_some() || is_over(world) {
         return;
@@ -36,6 +39,7 @@ fn pass_time(world: &mut World) {
     let elapsed = world.resource::<Time<Real>>().delta_secs();
     let dt = world.resource::<Clock>().dt;
     let due = world.resource_mut::<Pace>().take_ticks(elapsed, dt);
+    wire::grant(world, ROBOTS_BUDGET);
     let began = Instant::now();
     for _ in 0..due {
         advance(world);

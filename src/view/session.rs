@@ -124,7 +124,7 @@ impl Wanted {
 
 fn begin(world: &mut World, wanted: Wanted, (plan, scenario): Plans) {
     start_match(world, &plan);
-    if let Err(error) = wire::open(world, &plan).and_then(|()| wire::greet(world)) {
+    if let Err(error) = wire::open(world, &plan) {
         wire::close(world);
         world.resource_mut::<Trouble>().0 = Some(error.to_string());
     }

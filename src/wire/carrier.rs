@@ -2,6 +2,7 @@
 //! directory gives it.
 
 use std::collections::{BTreeMap, VecDeque};
+use std::net::SocketAddr;
 use std::sync::Arc;
 
 use bevy::prelude::*;
@@ -20,6 +21,7 @@ use crate::tcm::udp::{UdpConn, UdpError};
 use crate::tcm::{Addresses, Datagram, Directory, HOST, Incoming, OnAir, TcmSystems, as_robot, party};
 
 use super::WireError;
+use super::remote::TURN;
 
 pub(super) fn plugin(app: &mut App) {
     let is_used = resource_exists::<UdpCarrier>;
@@ -83,8 +85,25 @@ impl UdpCarrier {
         Ok(UdpCarrier::of(conns))
     }
 
+    /// Opens a socket for one more robot, at another address if its own is taken, and tells where.
+    pub(super) fn take_in(&mut self, robot: RobotId, directory: &Directory) -> Result<SocketAddr, WireError> {
+        let entity = party(robot);
+        let own = directory.address_of(entity).ok_or(WireError::NoAddress(entity))?;
+        // Any other is one that the other robots of this process can reach.
+        let near = self.conns.values().next().map_or(own.ip(), |conn| conn.address().ip());
+        let conn = UdpConn::bind(own).or_else(|_| UdpConn::bind(SocketAddr::new(near, 0)))?;
+        let address = conn.address();
+        self.conns.insert(robot, conn);
+        Ok(address)
+    }
+
     pub(super) fn of(conns: BTreeMap<RobotId, UdpConn>) -> UdpCarrier {
         UdpCarrier { conns, under_way: VecDeque::new(), figures: CarrierFigures::default() }
+    }
+
+    /// The same sockets, for another match.
+    pub(super) fn renewed(self) -> UdpCarrier {
+        UdpCarrier::of(self.conns)
     }
 
     /// The socket of a robot.
@@ -95,7 +114,7 @@ impl UdpCarrier {
     /// Takes note of a datagram that came from an address for one of our robots; tells who sent it, if it is ours.
     pub(super) fn note(
         &mut self,
-        from: std::net::SocketAddr,
+        from: SocketAddr,
         bytes: &[u8],
         directory: &Directory,
     ) -> Option<(Party, Header)> {
@@ -128,7 +147,8 @@ impl UdpCarrier {
     pub(super) fn drain(&mut self, directory: &Directory) {
         let ours: Vec<RobotId> = self.conns.keys().copied().collect();
         for robot in ours {
-            while let Some((from, bytes)) = self.next(robot) {
+            for _ in 0..TURN {
+                let Some((from, bytes)) = self.next(robot) else { break };
                 self.note(from, &bytes, directory);
             }
         }
@@ -147,7 +167,8 @@ fn deliver(
     let ours: Vec<RobotId> = carrier.conns.keys().copied().collect();
     for to in ours {
         let hears = robots.iter().any(|(id, robot)| *id == to && robot.condition.hears());
-        while let Some((from, bytes)) = carrier.next(to) {
+        for _ in 0..TURN {
+            let Some((from, bytes)) = carrier.next(to) else { break };
             let Some((source, header)) = carrier.note(from, &bytes, &addresses.0) else { continue };
             let known = carrier.arrived((source, header.counter, header.index), to);
             if let Some(from) = as_robot(source) {
@@ -178,7 +199,7 @@ fn deliver(
 }
 
 impl UdpCarrier {
-    fn next(&mut self, robot: RobotId) -> Option<(std::net::SocketAddr, Arc<[u8]>)> {
+    fn next(&mut self, robot: RobotId) -> Option<(SocketAddr, Arc<[u8]>)> {
         let received = self.conns.get_mut(&robot)?.receive();
         received.ok().flatten().map(|(from, bytes)| (from, bytes.into()))
     }

@@ -5,6 +5,9 @@
 mod announced;
 mod announcer;
 mod carrier;
+mod commands;
+mod greeting;
+mod introduction;
 mod league;
 mod protocol;
 mod referee_box;
@@ -12,13 +15,16 @@ mod remote;
 mod robot;
 
 use std::net::{IpAddr, SocketAddr};
+use std::time::Duration;
 
 use bevy::prelude::*;
 
 pub use carrier::{CarrierFigures, UdpCarrier};
+pub use greeting::{Awaited, Greeting};
+pub use introduction::{Introduction, Particular};
 pub use protocol::{Command, Sensors};
 pub use remote::RemoteFigures;
-pub use robot::{RobotProcess, RobotReport};
+pub use robot::{RobotEnd, RobotProcess, RobotReport};
 
 use crate::data::DataError;
 use crate::game::MatchPlan;
@@ -26,7 +32,7 @@ use crate::gamecontroller::control::Version;
 use crate::ids::RobotId;
 use crate::tcm::external_message::Entity as Party;
 use crate::tcm::udp::UdpError;
-use crate::tcm::{Addresses, MessageBudgets};
+use crate::tcm::{Addresses, MessageBudgets, party};
 use announcer::{Announcer, TEAM_NUMBERS};
 use league::LeaguePorts;
 use referee_box::BoxSocket;
@@ -55,6 +61,10 @@ pub struct WirePlan {
     pub version: Version,
 }
 
+/// How long a match without a window waits for robots in other processes before it begins, and a robot for word of its
+/// match, unless they are told.
+pub const PATIENCE: Duration = Duration::from_secs(20);
+
 /// What cannot be done with a network.
 #[derive(Debug, thiserror::Error)]
 pub enum WireError {
@@ -62,8 +72,18 @@ pub enum WireError {
     Udp(#[from] UdpError),
     #[error("{0} has no address: add it to the addresses")]
     NoAddress(Party),
-    #[error("{robot} does not answer at {address}: start it with `touchline robot`")]
-    Silent { robot: RobotId, address: SocketAddr },
+    #[error("{robot} has not answered at {address} for {} s: start it with `{}`", patience.as_secs_f32(), start(*robot))]
+    Silent { robot: RobotId, address: SocketAddr, patience: Duration },
+    #[error("no match has greeted {robot} at {address} for {} s: start it with `touchline run --remote {}:{}`",
+        patience.as_secs_f32(), robot.team, robot.number)]
+    NoMatch { robot: RobotId, address: SocketAddr, patience: Duration },
+    #[error("{robot} does not belong to the match at {address}: {difference}")]
+    OtherMatch { robot: RobotId, address: SocketAddr, difference: String },
+}
+
+/// What starts a robot in a process of its own, but for the options of its match.
+pub fn start(robot: RobotId) -> String {
+    format!("touchline robot --team {} --number {}", robot.team, robot.number)
 }
 
 impl From<WireError> for DataError {
@@ -128,16 +148,49 @@ pub fn close(world: &mut World) {
     world.remove_resource::<crate::gamecontroller::BoxNews>();
 }
 
-/// Waits until all remote robots have answered.
+/// Greets the robots in other processes that do not take part, hears what they say, and tells how far that got. It does not
+/// wait: call it in every frame, also while the match stands still, so that robots know that it is still there.
+pub fn poll_greeting(world: &mut World) -> Greeting {
+    with_remote(world, |world, remote| remote.poll(world, Duration::ZERO)).unwrap_or(Greeting::Done)
+}
+
+/// Waits until all robots in other processes take part, for so long at most. Several times a second `goes_on` is told who is
+/// missing; the wait ends when it says no.
 ///
 /// # Errors
 /// If one of them stays silent.
-pub fn greet(world: &mut World) -> Result<(), WireError> {
-    with_wires(world, |world, wires| match &mut wires.remote {
-        Some(remote) => remote.greet(world),
-        None => Ok(()),
-    })
-    .unwrap_or(Ok(()))
+pub fn greet(
+    world: &mut World,
+    patience: Duration,
+    goes_on: &mut dyn FnMut(&[Awaited]) -> bool,
+) -> Result<Greeting, WireError> {
+    with_remote(world, |world, remote| remote.greet(world, patience, goes_on)).unwrap_or(Ok(Greeting::Done))
+}
+
+/// From now on this process plays a robot that was to be played by another, as if it had just been switched on. It speaks
+/// from its address in the directory, or from any other of this machine if that is taken, of which then only the robots of
+/// this process know.
+///
+/// # Errors
+/// If there is no address at all; then it plays and neither speaks nor hears.
+pub fn give_up(world: &mut World, robot: RobotId) -> Result<(), WireError> {
+    let was_remote = with_remote(world, |world, remote| remote.give_up(world, robot)).unwrap_or(false);
+    if !was_remote {
+        return Ok(());
+    }
+    remote::wake(world, robot);
+    let mut addresses = world.resource::<Addresses>().0.clone();
+    let Some(mut carrier) = world.get_resource_mut::<UdpCarrier>() else { return Ok(()) };
+    let address = carrier.take_in(robot, &addresses)?;
+    addresses.put(party(robot), address);
+    world.insert_resource(Addresses(addresses));
+    Ok(())
+}
+
+/// The ticks from now on may wait so long for robots in other processes, all together. What was granted before is void. Until
+/// something is granted each tick waits for 200 ms at most.
+pub fn grant(world: &mut World, patience: Duration) {
+    with_remote(world, |_, remote| remote.granted = Some(patience));
 }
 
 /// Hears and says what is to be heard and said between two ticks.
@@ -187,6 +240,10 @@ pub fn remote_figures(world: &World) -> Vec<RemoteFigures> {
 /// Whether a match follows a clock that is not its own.
 pub fn is_in_real_time(plan: &MatchPlan) -> bool {
     plan.wires.gamecontroller.is_some()
+}
+
+fn with_remote<T>(world: &mut World, speak: impl FnOnce(&mut World, &mut RemoteRobots) -> T) -> Option<T> {
+    with_wires(world, |world, wires| wires.remote.as_mut().map(|remote| speak(world, remote))).flatten()
 }
 
 fn with_wires<T>(world: &mut World, exchange: impl FnOnce(&mut World, &mut Wires) -> T) -> Option<T> {

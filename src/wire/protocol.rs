@@ -1,9 +1,12 @@
-//! What a match and a robot that is a process of its own say to each other, as data of the TCM: sensors one way, commands
-//! the other.
+//! What a match and a robot that is a process of its own say to each other, as data of the TCM: first each
+//! [introduces](Introduction) itself, then sensors go one way and commands the other.
+
+use std::time::SystemTime;
 
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::introduction::Introduction;
 use crate::geometry::Pose;
 use crate::handling::KickIntent;
 use crate::head::HeadIntent;
@@ -17,16 +20,16 @@ use crate::tcm::{
 };
 
 pub(super) fn plugin(app: &mut App) {
-    app.register_data::<Sensors>().register_data::<Command>();
+    app.register_data::<Introduction>().register_data::<Sensors>().register_data::<Command>();
 }
 
 /// What a robot senses, and what it was told by the referee; once a tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sensors {
+    /// Of the match, as it was introduced.
+    pub session: u32,
     /// The tick that the answer is for.
     pub tick: u64,
-    /// Whether the match has begun; until then the robot only says that it is there.
-    pub begun: bool,
     /// The newest camera frame.
     pub frame: Option<Frame>,
     pub odometry: Pose,
@@ -45,6 +48,8 @@ pub struct Sensors {
 /// What a robot wants its motors to do, and how it sees things; its answer to [`Sensors`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Command {
+    /// That of the sensors that it answers.
+    pub session: u32,
     /// The tick of the sensors that it answers.
     pub tick: u64,
     pub steering: SteeringIntent,
@@ -79,6 +84,12 @@ pub(super) fn datagrams<T: Data>(data: &T, from: Party, to: Party, counter: &mut
     cut(&message, *counter, USUAL_DATAGRAM).unwrap_or_default()
 }
 
+/// A number that the last process at this place has not used, for counting on from: milliseconds on the wall's clock.
+pub(super) fn unused_number() -> u32 {
+    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+    since.map_or(0, |since| since.as_millis() as u32)
+}
+
 impl Command {
     fn is_finite(&self) -> bool {
         let steering = match self.steering {
@@ -104,7 +115,7 @@ impl Sensors {
 }
 
 impl Data for Sensors {
-    const TYPE: DataType = DataType(16);
+    const TYPE: DataType = DataType(19);
     const MODULE: Module = Module::REMOTE_ROBOTS;
     const NAME: &'static str = "sensors";
 
@@ -118,7 +129,7 @@ impl Data for Sensors {
 }
 
 impl Data for Command {
-    const TYPE: DataType = DataType(17);
+    const TYPE: DataType = DataType(20);
     const MODULE: Module = Module::REMOTE_ROBOTS;
     const NAME: &'static str = "command";
 
@@ -137,6 +148,7 @@ mod tests {
 
     fn command(speed: f32) -> Command {
         Command {
+            session: 5,
             tick: 9,
             steering: SteeringIntent::Steer { heading: 0.5, facing: 0.4, speed },
             kick: KickIntent::Hold,

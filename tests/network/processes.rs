@@ -1,21 +1,21 @@
 //! Robots that are processes of their own.
 
+use std::io::Write;
 use std::net::SocketAddr;
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use serde_json::Value;
-use touchline::data::DataError;
 use touchline::game::MatchPlan;
 use touchline::ids::{RobotId, Team};
 use touchline::motor::SteeringIntent;
 use touchline::referee::Phase;
-use touchline::tcm::HOST;
 use touchline::tcm::udp::UdpError;
-use touchline::wire::{self, WireError, WirePlan};
+use touchline::tcm::{Directory, HOST, party};
+use touchline::wire::{self, Greeting, WireError, WirePlan};
 
-use super::{HOME_1, address_of, free_directory, open, stranger, talkative};
+use super::{HOME_0, HOME_1, address_of, by_udp, free_directory, greet, open, stranger, talkative};
 
 /// A process that ends with the test, whatever happens.
 struct Process(Option<Child>);
@@ -90,10 +90,26 @@ fn is_refusal(error: std::io::Error) -> bool {
 /// Writes the addresses of a match to a file.
 fn write_addresses(plan: &MatchPlan, folder: &Path) -> std::path::PathBuf {
     let file = folder.join("addresses.ron");
+    std::fs::write(&file, ron_of(plan)).expect("the file is written");
+    file
+}
+
+fn ron_of(plan: &MatchPlan) -> String {
     let directory = plan.directory();
     let lines = directory.entries().map(|(who, at)| format!("\"{who}\": \"{at}\",\n"));
-    std::fs::write(&file, format!("{{\n{}}}\n", lines.collect::<String>())).expect("the file is written");
-    file
+    format!("{{\n{}}}\n", lines.collect::<String>())
+}
+
+/// Free addresses for a match, as a file and as a table; the file lasts as long as its handle.
+fn addresses_of(plan: &MatchPlan) -> (tempfile::TempPath, Directory) {
+    let plan = MatchPlan { addresses: Some(free_directory(plan)), ..plan.clone() };
+    let mut file = tempfile::NamedTempFile::new().expect("a temporary file");
+    file.write_all(ron_of(&plan).as_bytes()).expect("the file is written");
+    (file.into_temp_path(), plan.directory())
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 /// The result of a match and what its robots in other processes say.
@@ -191,7 +207,7 @@ fn a_match_whose_remote_robot_dies_goes_on_to_its_end_and_the_robot_stands() {
             break (game, robot);
         }
     };
-    wire::greet(game.world_mut()).expect("the robot is there");
+    greet(&mut game);
     // Long enough for a robot that has fallen silent to stand, and not much longer, as each tick waits for it.
     let last_ticks = 36.0 / 60.0;
     while game.state().half == 1
@@ -209,20 +225,101 @@ fn a_match_whose_remote_robot_dies_goes_on_to_its_end_and_the_robot_stands() {
     let after = wire::remote_figures(game.world())[0];
     assert_eq!(after.answered, before.answered);
     assert!(after.missed >= before.missed + 30, "{after:?}");
-    assert_eq!(after.told, after.answered + after.missed);
+    assert_eq!(after.answered + after.missed, game.clock().tick);
+    assert!(after.told < after.answered + 20, "who is gone is told nothing: {after:?}");
     let mut robots = game.world_mut().query::<(&RobotId, &SteeringIntent)>();
     let intent = robots.iter(game.world()).find(|(id, _)| **id == HOME_1).map(|(_, intent)| *intent);
     assert_eq!(intent, Some(SteeringIntent::Stop));
 }
 
 #[test]
-fn a_remote_robot_that_never_comes_is_named_in_one_line() {
-    let address = SocketAddr::from(([127, 0, 0, 1], 7401));
-    let error = DataError::from(WireError::Silent { robot: HOME_1, address }).to_string();
-    for word in ["home 1", "127.0.0.1:7401", "touchline robot"] {
-        assert!(error.contains(word), "{error}");
+fn a_remote_robot_that_never_comes_is_named_and_waited_for_as_long_as_was_asked_for() {
+    let plan = MatchPlan { addresses: None, ..talkative(0.1) };
+    let (file, addresses) = addresses_of(&plan);
+    let run = ["run", "--remote", "home:1", "--patience", "0.7"];
+    let output = Process::start(&[&run[..], &TALKATIVE].concat(), &file).end();
+    let at = addresses.address_of(party(HOME_1)).expect("it is there");
+    let start = "start it with `touchline robot --team home --number 1`";
+    let lines = [
+        format!("waiting for home 1 at {at}; {start}"),
+        format!("network: home 1 has not answered at {at} for 0.7 s: {start}"),
+    ];
+    assert_eq!(stderr(&output).lines().collect::<Vec<_>>(), lines);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+}
+
+#[test]
+fn a_robot_that_no_match_greets_says_so() {
+    let (file, addresses) = addresses_of(&talkative(0.1));
+    let robot = ["robot", "--team", "home", "--number", "1", "--patience", "0.1"];
+    let output = Process::start(&[&robot[..], &TALKATIVE].concat(), &file).end();
+    let host = addresses.address_of(HOST).expect("it is there");
+    let line = format!(
+        "network: no match has greeted home 1 at {host} for 0.1 s: start it with `touchline run --remote home:1`\n"
+    );
+    assert_eq!((stderr(&output), output.status.code()), (line, Some(2)));
+}
+
+#[test]
+fn a_robot_of_another_strategy_is_refused_with_one_line_on_either_side() {
+    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
+    let (mut game, plan) = open(&MatchPlan { wires: remote, ..talkative(0.1) });
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let addresses = write_addresses(&plan, folder.path());
+    let other = ["robot", "--team", "home", "--number", "1", "--home", "ball_chasers", "--seed", "7"];
+    let mut robot = Process::start(&other, &addresses);
+    let mut refusal = None;
+    while refusal.is_none() {
+        let Greeting::Awaiting(awaited) = wire::poll_greeting(game.world_mut()) else {
+            panic!("it is another")
+        };
+        refusal = awaited[0].refusal.clone();
+        std::thread::yield_now();
     }
-    assert_eq!(error.lines().count(), 1, "{error}");
+    let output = robot.end();
+    let (line, at) = (refusal.expect("it is there"), address_of(&plan, HOME_1));
+    let host = plan.directory().address_of(HOST).expect("it is there");
+    let begin =
+        format!("home 1 at {at} is refused: it plays another match: the strategy of home differs: here ");
+    assert!(line.starts_with(&begin) && line.contains(", there ") && line.lines().count() == 1, "{line}");
+    let error = stderr(&output);
+    let begin = format!(
+        "network: home 1 does not belong to the match at {host}: the strategy of home differs: here "
+    );
+    assert!(error.starts_with(&begin) && error.lines().count() == 1, "{error}");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+}
+
+#[test]
+fn a_robot_whose_match_is_gone_ends_with_its_report_and_one_line() {
+    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
+    let (mut game, plan) = open(&MatchPlan { wires: remote, ..talkative(0.1) });
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let addresses = write_addresses(&plan, folder.path());
+    let robot = ["robot", "--json", "--team", "home", "--number", "1", "--patience", "3"];
+    let mut robot = Process::start(&[&robot[..], &TALKATIVE].concat(), &addresses);
+    greet(&mut game);
+    (0..5).for_each(|_| game.tick());
+    wire::close(game.world_mut());
+    let output = robot.end();
+    let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+    assert_eq!(report["ending"], "match_gone");
+    assert!(report["answered"].as_u64() > Some(0), "{report}");
+    let line = "home 1 has heard nothing of its match for 3 s\n";
+    assert_eq!((stderr(&output).as_str(), output.status.code()), (line, Some(1)));
+}
+
+#[test]
+fn a_second_match_on_the_same_ports_says_which_port_is_taken() {
+    let (_game, plan) = open(&by_udp(talkative(0.1)));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let addresses = write_addresses(&plan, folder.path());
+    let output = Process::start(&[&["run", "--radio", "udp"][..], &TALKATIVE].concat(), &addresses).end();
+    let line = format!(
+        "network: cannot listen at {}: the port is taken, perhaps by another match or one of its robots\n",
+        address_of(&plan, HOME_0)
+    );
+    assert_eq!((stderr(&output), output.status.code()), (line, Some(2)));
 }
 
 #[test]
