@@ -13,5 +13,6 @@ mod role_swap;
 mod rolling_bodies;
 mod scenarios;
 mod schedule;
+mod squeezed_ball;
 mod strategies;
 mod support;

@@ -12,7 +12,7 @@ use crate::data::{AssetFolder, DataError};
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
 use crate::radio::{LinkCounters, Traffic};
-use crate::record::BookingFigures;
+use crate::record::{BallOverlap, BookingFigures};
 use crate::referee::RuleBook;
 use crate::tcm::{MessageBudgets, Spent};
 use crate::wire::{self, Awaited, CarrierFigures, RemoteFigures, UdpCarrier};
@@ -41,6 +41,8 @@ struct Report {
     agglomeration: [f64; 2],
     /// How well each team's ball booking met its requirements.
     bookings: [BookingFigures; 2],
+    /// How deep the ball has sunk into robots and walls.
+    overlap: BallOverlap,
     /// Metres, all robots of a team together.
     driven: [f64; 2],
     /// What a team's robots said to each other.
@@ -217,6 +219,7 @@ impl Report {
             crowding: record.crowding.map(|seconds| seconds / record.played.max(f64::EPSILON)),
             agglomeration: record.agglomeration.map(|seconds| seconds / record.played.max(f64::EPSILON)),
             bookings: record.bookings,
+            overlap: record.overlap,
             driven: Team::BOTH.map(|team| record.driven_by(team)),
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
             budgets: TeamBudget::of(game),

@@ -2,6 +2,7 @@
 //! clock moves on at its end.
 
 mod bookings;
+mod overlap;
 #[cfg(test)]
 mod tests;
 
@@ -12,6 +13,7 @@ use serde::Serialize;
 use xxhash_rust::xxh3::{Xxh3DefaultBuilder, xxh3_64_with_seed};
 
 pub use bookings::{BookingFigures, PING_PONG, Span};
+pub use overlap::{BallOverlap, TOLERANCE};
 
 use crate::ball::Ball;
 use crate::behaviour::Activity;
@@ -26,7 +28,7 @@ use crate::schedule::{Tick, TickSystems};
 use crate::teamwork::{Role, Swapping};
 
 pub(super) fn plugin(app: &mut App) {
-    let systems = (digest, measure, bookings::watch_bookings, move_clock).chain();
+    let systems = (digest, measure, bookings::watch_bookings, overlap::watch_overlaps, move_clock).chain();
     app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
 
@@ -44,6 +46,8 @@ pub struct Record {
     pub agglomeration: [f64; 2],
     /// How well each team's ball booking has worked, home first.
     pub bookings: [BookingFigures; 2],
+    /// How deep the ball has sunk into robots and walls.
+    pub overlap: BallOverlap,
     /// Seconds of play.
     pub played: f64,
     /// Metres driven by each robot, by robot in order.
@@ -68,6 +72,7 @@ impl Record {
             crowding: [0.0; 2],
             agglomeration: [0.0; 2],
             bookings: [BookingFigures::default(); 2],
+            overlap: BallOverlap::default(),
             played: 0.0,
             driven: robots.into_iter().map(|robot| (robot, 0.0)).collect(),
             last_near: None,
