@@ -10,6 +10,8 @@
 //! only: truth is read by Sense, Referee, Record and the window. Seed, assets and requests determine a match bit for bit.
 
 #![forbid(unsafe_code)]
+// They panic when nobody reads; `cli` prints by writers that can fail.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod ball;
 pub mod behaviour;
@@ -25,6 +27,7 @@ pub mod head;
 pub mod ids;
 #[cfg(feature = "window")]
 pub mod inspector;
+pub mod logging;
 pub mod messages;
 pub mod motor;
 pub mod perception;

@@ -14,6 +14,11 @@ use crate::ids::RobotId;
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 pub struct Seed(pub u64);
 
+/// The seed of a match that nobody has chosen one for.
+pub const DEFAULT_SEED: u64 = 1;
+/// The largest seed: that and all below it survive in whatever reads JSON, which may keep numbers as doubles.
+pub const LARGEST_SEED: u64 = (1 << 53) - 1;
+
 /// A stream of random numbers: PCG (MCG 128/64), named by its purpose and its robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dice(Pcg64Mcg);

@@ -1,15 +1,17 @@
 //! `touchline robot`: one robot of a match that is elsewhere.
 
+use std::io::{self, Write};
 use std::net::SocketAddr;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
-use super::MatchOptions;
-use crate::data::{AssetFolder, DataError};
+use super::ending::{CommandError, Ending, tell};
+use super::interrupt::Interrupt;
+use super::options::{MatchOptions, SeedOption};
+use crate::data::AssetFolder;
 use crate::ids::{RobotId, Team};
 use crate::tcm::party;
-use crate::wire::{RobotEnd, RobotProcess, WireError};
+use crate::wire::{RobotEnd, RobotProcess, RobotReport, WireError};
 
 #[derive(Args, Debug)]
 pub(super) struct Robot {
@@ -25,6 +27,8 @@ pub(super) struct Robot {
     /// The match that it takes part in: the same as where the match is played.
     #[command(flatten)]
     options: MatchOptions,
+    #[command(flatten)]
+    seed: SeedOption,
     /// Print what became of its messages as JSON.
     #[arg(long)]
     json: bool,
@@ -37,15 +41,8 @@ enum Side {
 }
 
 impl Robot {
-    pub(super) fn run(&self, assets: &AssetFolder) -> Result<ExitCode, DataError> {
-        let elsewhere = [
-            ("--announce", self.options.announce.is_some()),
-            ("--league-ports", self.options.league_ports.is_some()),
-        ];
-        if let Some((option, _)) = elsewhere.into_iter().find(|(_, given)| *given) {
-            return Err(DataError::new(option, "is for the match, not for one of its robots"));
-        }
-        let plan = self.options.plan(assets, None)?;
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        let plan = self.options.plan(assets, &self.seed)?;
         let team = match self.team {
             Side::Home => Team::Home,
             Side::Away => Team::Away,
@@ -55,23 +52,32 @@ impl Robot {
         let entity = party(id);
         let bind = self.bind.or_else(|| plan.directory().address_of(entity));
         let bind = bind.ok_or(WireError::NoAddress(entity))?;
+        let interrupt = Interrupt::listen();
         let patience = self.options.patience();
-        let report = RobotProcess::open(&plan, id, bind)?.play(patience, &|| false)?;
+        let report = RobotProcess::open(&plan, id, bind)?.play(patience, &|| interrupt.is_asked())?;
         if self.json {
-            println!("{}", serde_json::to_string_pretty(&report).unwrap_or_else(|error| error.to_string()));
+            super::print_json(&report, out)?;
         } else {
-            let figures = report.datagrams;
-            println!("{id} answered {} ticks", report.answered);
-            println!("datagrams: {} sent to robots, {} received from them", figures.sent, figures.received);
-            println!(
-                "{} from computers, {} from nobody we know, {} not sent",
-                figures.from_computers, figures.foreign, figures.refused
-            );
+            print(&report, out)?;
         }
-        if report.ending == RobotEnd::MatchGone {
-            eprintln!("{id} has heard nothing of its match for {} s", patience.as_secs_f32());
-            return Ok(ExitCode::FAILURE);
-        }
-        Ok(ExitCode::SUCCESS)
+        Ok(match report.ending {
+            RobotEnd::MatchOver => Ending::Done,
+            RobotEnd::Stopped => Ending::Interrupted,
+            RobotEnd::MatchGone => {
+                tell(format_args!("{id} has heard nothing of its match for {} s", patience.as_secs_f32()));
+                Ending::Failed
+            }
+        })
     }
+}
+
+fn print(report: &RobotReport, out: &mut impl Write) -> io::Result<()> {
+    let figures = report.datagrams;
+    writeln!(out, "{} answered {} ticks", report.robot, report.answered)?;
+    writeln!(out, "datagrams: {} sent to robots, {} received from them", figures.sent, figures.received)?;
+    writeln!(
+        out,
+        "{} from computers, {} from nobody we know, {} not sent",
+        figures.from_computers, figures.foreign, figures.refused
+    )
 }

@@ -1,14 +1,16 @@
 //! `touchline run`: a match without a window, as fast as it goes.
 
-use std::process::ExitCode;
+use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
-use super::MatchOptions;
-use crate::data::{AssetFolder, DataError};
+use super::ending::{CommandError, Ending, tell};
+use super::interrupt::Interrupt;
+use super::options::{HostOptions, MatchOptions, SeedOption};
+use crate::data::{AssetFolder, in_one_line};
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
 use crate::radio::{LinkCounters, Traffic};
@@ -21,6 +23,10 @@ use crate::wire::{self, Awaited, CarrierFigures, RemoteFigures, UdpCarrier};
 pub(super) struct Run {
     #[command(flatten)]
     options: MatchOptions,
+    #[command(flatten)]
+    host: HostOptions,
+    #[command(flatten)]
+    seed: SeedOption,
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
@@ -60,6 +66,8 @@ struct Report {
     ticks_per_second: f64,
     /// Equal digests mean equal matches.
     digest: String,
+    /// Whether it is the result so far of a match that did not come to its end.
+    interrupted: bool,
 }
 
 /// A team's messages, each datagram once however many robots hear it.
@@ -90,26 +98,30 @@ impl Network {
         Some(Network { here: carrier.figures, elsewhere: wire::remote_figures(game.world()) })
     }
 
-    fn print(&self) {
+    fn print(&self, out: &mut impl Write) -> io::Result<()> {
         let here = self.here;
-        println!(
+        writeln!(
+            out,
             "datagrams   {:6} sent and {} received by the robots of this process",
             here.sent, here.received
-        );
-        println!(
+        )?;
+        writeln!(
+            out,
             "            {:6} from computers, {} from nobody we know, {} not sent",
             here.from_computers, here.foreign, here.refused
-        );
+        )?;
         for robot in &self.elsewhere {
-            println!(
+            writeln!(
+                out,
                 "{:11} {:6} ticks told, {} answered; {} datagrams sent and {} received",
                 robot.robot.to_string(),
                 robot.told,
                 robot.answered,
                 robot.sent,
                 robot.received
-            );
+            )?;
         }
+        Ok(())
     }
 }
 
@@ -133,24 +145,43 @@ impl Messages {
 }
 
 impl Run {
-    pub(super) fn run(&self, assets: &AssetFolder) -> Result<ExitCode, DataError> {
-        let plan = self.options.plan(assets, None)?;
-        play_headless(&plan, self.json, self.options.patience())?;
-        Ok(ExitCode::SUCCESS)
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        let choice = self.host.choice(&self.options, &self.seed)?;
+        let plan = MatchPlan::read(assets, &choice)?;
+        play_headless(&plan, self.json, self.options.patience(), &Interrupt::listen(), out)
     }
 }
 
-/// Plays a match to its end and prints the result; waits so long for its robots in other processes.
+/// Plays a match to its end, or until it is interrupted, and prints the result; waits so long for its robots in other
+/// processes.
 ///
 /// # Errors
-/// If the match needs a network that is not to be had.
-pub(super) fn play_headless(plan: &MatchPlan, json: bool, patience: Duration) -> Result<(), DataError> {
-    let bar = progress(plan);
+/// If the match needs a network that is not to be had, or the result cannot be printed.
+pub(super) fn play_headless(
+    plan: &MatchPlan,
+    json: bool,
+    patience: Duration,
+    interrupt: &Interrupt,
+    out: &mut impl Write,
+) -> Result<Ending, CommandError> {
     let started = Instant::now();
     let mut game = Match::new(plan);
     wire::open(game.world_mut(), plan)?;
-    await_robots(&mut game, patience)?;
-    while !game.is_over() {
+    await_robots(&mut game, patience, interrupt)?;
+    play_on(&mut game, plan, started, interrupt);
+    wire::finish(game.world_mut());
+    let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
+    if json {
+        super::print_json(&report, out)?;
+    } else {
+        report.print(out)?;
+    }
+    Ok(if report.interrupted { Ending::Interrupted } else { Ending::Done })
+}
+
+fn play_on(game: &mut Match, plan: &MatchPlan, started: Instant, interrupt: &Interrupt) {
+    let bar = progress(plan);
+    while !game.is_over() && !interrupt.is_asked() {
         if wire::is_in_real_time(plan) {
             wait_until(started + Duration::from_secs_f64(game.clock().now()));
         }
@@ -161,29 +192,24 @@ pub(super) fn play_headless(plan: &MatchPlan, json: bool, patience: Duration) ->
             bar.set_position(game.record().played as u64);
         }
     }
-    wire::finish(game.world_mut());
     bar.finish_and_clear();
-    let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
-    if json {
-        println!("{}", serde_json::to_string_pretty(&report).unwrap_or_else(|error| error.to_string()));
-    } else {
-        report.print();
-    }
-    Ok(())
 }
 
 /// Waits for robots in other processes, and says so if it takes more than a moment.
-fn await_robots(game: &mut Match, patience: Duration) -> Result<(), DataError> {
+fn await_robots(game: &mut Match, patience: Duration, interrupt: &Interrupt) -> Result<(), CommandError> {
     let begin = Instant::now();
     let mut is_said = false;
     let mut goes_on = |awaited: &[Awaited]| {
         if !is_said && begin.elapsed() > MOMENT {
             for Awaited { robot, address, .. } in awaited {
-                eprintln!("waiting for {robot} at {address}; start it with `{}`", wire::start(*robot));
+                tell(format_args!(
+                    "waiting for {robot} at {address}; start it with `{}`",
+                    wire::start(*robot)
+                ));
             }
             is_said = true;
         }
-        true
+        !interrupt.is_asked()
     };
     wire::greet(game.world_mut(), patience, &mut goes_on)?;
     Ok(())
@@ -200,11 +226,14 @@ fn wait_until(then: Instant) {
 /// Ticks between two updates of the progress bar.
 const REPORT_EVERY: u64 = 600;
 
-/// A bar in simulated seconds; shown on a terminal only.
+/// A bar in simulated seconds; shown only on a terminal that can go back in a line.
 fn progress(plan: &MatchPlan) -> ProgressBar {
     let seconds = plan.rules.half_seconds() * f64::from(RuleBook::HALVES);
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} s of play, {msg}, {eta} left");
-    ProgressBar::new(seconds as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let is_dumb = std::env::var_os("TERM").is_some_and(|terminal| terminal == "dumb");
+    let target = if is_dumb { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(seconds as u64), target);
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 impl Report {
@@ -216,8 +245,8 @@ impl Report {
             seed: plan.seed,
             score: game.state().score,
             possession: record.possession_shares(),
-            crowding: record.crowding.map(|seconds| seconds / record.played.max(f64::EPSILON)),
-            agglomeration: record.agglomeration.map(|seconds| seconds / record.played.max(f64::EPSILON)),
+            crowding: record.crowding.map(|seconds| share(seconds, record.played)),
+            agglomeration: record.agglomeration.map(|seconds| share(seconds, record.played)),
             bookings: record.bookings,
             overlap: record.overlap,
             driven: Team::BOTH.map(|team| record.driven_by(team)),
@@ -226,34 +255,80 @@ impl Report {
             network: Network::of(game),
             seconds: clock.now(),
             ticks: clock.tick,
-            ticks_per_second: clock.tick as f64 / wall_seconds,
+            ticks_per_second: share(clock.tick as f64, wall_seconds),
             digest: format!("{:016x}", record.digest),
+            interrupted: !game.is_over(),
         }
     }
 
-    fn print(&self) {
-        let [home, away] = &self.teams;
-        println!("{home} {} : {} {away}", self.score[0], self.score[1]);
-        println!("possession  {:4.0} % : {:.0} %", 100.0 * self.possession[0], 100.0 * self.possession[1]);
-        println!("crowding    {:4.0} % : {:.0} %", 100.0 * self.crowding[0], 100.0 * self.crowding[1]);
-        println!("driven      {:4.0} m : {:.0} m", self.driven[0], self.driven[1]);
+    fn print(&self, out: &mut impl Write) -> io::Result<()> {
+        if self.interrupted {
+            writeln!(out, "interrupted after {:.0} s; the result so far:", self.seconds)?;
+        }
+        let [home, away] = self.teams.each_ref().map(|name| in_one_line(name));
+        writeln!(out, "{home} {} : {} {away}", self.score[0], self.score[1])?;
+        let percent = |[home, away]: [f64; 2]| format!("{:4.0} % : {:.0} %", 100.0 * home, 100.0 * away);
+        writeln!(out, "possession  {}", percent(self.possession))?;
+        writeln!(out, "crowding    {}", percent(self.crowding))?;
+        writeln!(out, "driven      {:4.0} m : {:.0} m", self.driven[0], self.driven[1])?;
         let [home, away] = &self.messages;
-        println!("messages    {:6} : {} ({} and {} lost)", home.sent, away.sent, home.lost, away.lost);
+        writeln!(out, "messages    {:6} : {} ({} and {} lost)", home.sent, away.sent, home.lost, away.lost)?;
         if let Some([home, away]) = &self.budgets {
-            println!("budget      {:6} : {} messages left of the league's", home.left, away.left);
+            writeln!(out, "budget      {:6} : {} messages left of the league's", home.left, away.left)?;
             let held_back = [home, away].map(|team| team.spent.over_budget);
             if held_back.iter().any(|messages| *messages > 0) {
-                println!("            {:6} : {} not sent, to keep within it", held_back[0], held_back[1]);
+                writeln!(
+                    out,
+                    "            {:6} : {} not sent, to keep within it",
+                    held_back[0], held_back[1]
+                )?;
             }
         }
         if let Some(network) = &self.network {
-            network.print();
+            network.print(out)?;
         }
-        let pace = self.ticks_per_second * self.seconds / self.ticks as f64;
-        println!(
+        let pace = share(self.ticks_per_second * self.seconds, self.ticks as f64);
+        writeln!(
+            out,
             "{:.0} s in {} ticks, {:.0} ticks/s, {pace:.0} times real time",
             self.seconds, self.ticks, self.ticks_per_second
-        );
-        println!("seed {}, digest {}", self.seed, self.digest);
+        )?;
+        writeln!(out, "seed {}, digest {}", self.seed, self.digest)
+    }
+}
+
+/// A part of a whole; nothing of nothing is 0, since JSON has no other number for it.
+fn share(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use super::*;
+
+    fn numbers(value: &Value) -> Vec<f64> {
+        match value {
+            Value::Number(number) => number.as_f64().into_iter().collect(),
+            Value::Null => vec![f64::NAN],
+            Value::Array(items) => items.iter().flat_map(numbers).collect(),
+            Value::Object(fields) => fields.values().flat_map(numbers).collect(),
+            Value::Bool(_) | Value::String(_) => Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_result_of_a_match_that_never_began_has_a_number_in_each_place() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let plan = MatchPlan::read(&assets, &crate::game::Choice::default()).expect("the default match");
+        let report = Report::of(&Match::new(&plan), &plan, 0.0);
+        assert!(report.interrupted);
+        let numbers = numbers(&serde_json::to_value(&report).expect("the report is JSON"));
+        assert!(numbers.len() > 20 && numbers.iter().all(|number| number.is_finite()), "{numbers:?}");
+        let mut text = Vec::new();
+        report.print(&mut text).expect("memory takes everything");
+        let text = String::from_utf8_lossy(&text);
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
     }
 }

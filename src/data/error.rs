@@ -70,11 +70,11 @@ fn one_line(path: &Path, place: (Option<usize>, Option<usize>), field: &Field, m
     }
     text.push_str(": ");
     text.push_str(message);
-    without_line_breaks(&text)
+    in_one_line(&text)
 }
 
 /// Names come from files and may hold anything; control characters and line separators become spaces.
-fn without_line_breaks(text: &str) -> String {
+pub fn in_one_line(text: &str) -> String {
     text.replace(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}'), " ")
 }
 

@@ -14,7 +14,7 @@ mod source;
 mod words;
 
 pub use bounds::{Bound, Bounds, Fault, first_fault};
-pub use error::{DataError, no_such};
+pub use error::{DataError, in_one_line, no_such};
 pub use field::{Field, Segment};
 pub use folder::AssetFolder;
 pub use locate::locate;

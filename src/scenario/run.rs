@@ -27,33 +27,48 @@ use crate::teamwork::{Booking, Role, Standing, Swapping, TeamPicture};
 impl ScenarioPlan {
     /// Plays the scenario with each of its seeds.
     pub fn run(&self, without: Option<Dependency>) -> Report {
+        self.run_until(without, &|| false)
+    }
+
+    /// Plays the scenario with each of its seeds, or until it is to stop: then the run of that moment does not count.
+    pub fn run_until(&self, without: Option<Dependency>, stop: &dyn Fn() -> bool) -> Report {
         let plan = without.map_or_else(|| self.clone(), |dependency| self.without(dependency));
-        let runs = self.scenario.seeds.iter().map(|seed| {
+        let runs = self.scenario.seeds.iter().map_while(|seed| {
             let start = Instant::now();
-            let verdict = plan.play(*seed);
-            Run { seed: *seed, verdict, took: start.elapsed() }
+            let verdict = plan.play_until(*seed, stop)?;
+            Some(Run { seed: *seed, verdict, took: start.elapsed() })
         });
+        let runs: Vec<Run> = runs.collect();
         Report {
             file: self.path.display().to_string(),
             name: self.scenario.name.clone(),
             without,
-            runs: runs.collect(),
+            interrupted: runs.len() < self.scenario.seeds.len(),
+            runs,
         }
     }
 
     /// Plays the scenario with one seed, until everything is decided.
     pub fn play(&self, seed: u64) -> Verdict {
+        self.play_until(seed, &|| false).unwrap_or_default()
+    }
+
+    /// As [`ScenarioPlan::play`]; `None` if it is to stop before.
+    fn play_until(&self, seed: u64, stop: &dyn Fn() -> bool) -> Option<Verdict> {
         let mut game = Match::new(&self.with_seed(seed));
         let dt = game.clock().dt;
         let mut judge = Judge::new(&self.scenario, dt);
         for _ in 0..self.scenario.ticks(dt) {
+            if stop() {
+                return None;
+            }
             game.tick();
             observe(game.world_mut(), &mut judge);
             if judge.is_decided() {
                 break;
             }
         }
-        judge.verdict()
+        Some(judge.verdict())
     }
 }
 

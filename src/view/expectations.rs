@@ -9,8 +9,11 @@ use crate::clock::Clock;
 use crate::scenario::{Judge, Scenario, observe};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(AfterTick, look);
+    app.add_systems(AfterTick, look).add_systems(Last, tell_whoever_started_us);
 }
+
+/// The code with which the app ends when its scenario has failed. Bevy ends with 1 when something of its own fails.
+pub(super) const FAILED: u8 = 10;
 
 /// The judge of the scenario that is played; none in a match.
 #[derive(Resource, Clone, Debug, Default)]
@@ -97,12 +100,20 @@ fn look(world: &mut World) {
     world.insert_resource(expectations);
 }
 
+/// When the window is closed on a scenario that has failed, the app ends with [`FAILED`].
+fn tell_whoever_started_us(expectations: Res<Expectations>, mut exits: ResMut<Messages<AppExit>>) {
+    let is_closed = exits.iter_current_update_messages().any(AppExit::is_success);
+    if is_closed && expectations.whole() == Standing::Failed {
+        exits.write(AppExit::from_code(FAILED));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::data::AssetFolder;
     use crate::game::Match;
-    use crate::scenario::ScenarioPlan;
+    use crate::scenario::{Condition, Expectation, ScenarioPlan, Thing};
 
     #[test]
     fn the_window_judges_as_the_headless_runner_and_leaves_the_match_alone() {
@@ -122,6 +133,30 @@ mod tests {
         let passed = plan.play(1).passed();
         assert_eq!(expectations.whole() == Standing::Met, passed);
         assert_eq!(expectations.reasons().is_empty(), passed);
+    }
+
+    #[test]
+    fn a_window_that_is_closed_on_a_failed_scenario_says_so_when_it_ends() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let mut plan = ScenarioPlan::read(&assets, &assets.file("scenarios", "swap_figure_8")).unwrap();
+        let never = Condition::Distance { from: Thing::Ball, to: Thing::Ball, below: None, above: Some(1.0) };
+        for (what, expected) in
+            [(never.clone(), AppExit::from_code(FAILED)), (Condition::Not(Box::new(never)), AppExit::Success)]
+        {
+            plan.scenario.expect =
+                vec![Expectation::Always { what, from: 0.0, until: None, because: String::new() }];
+            let mut game = Match::new(&plan.with_seed(1));
+            let mut expectations = Expectations::of(Some(&plan.scenario), game.clock().dt);
+            game.tick();
+            observe(game.world_mut(), expectations.judge.as_mut().unwrap());
+            let mut app = App::new();
+            app.insert_resource(expectations).add_systems(Last, tell_whoever_started_us);
+            app.update();
+            assert_eq!(app.should_exit(), None);
+            app.world_mut().write_message(AppExit::Success);
+            app.update();
+            assert_eq!(app.should_exit(), Some(expected));
+        }
     }
 
     #[test]

@@ -40,8 +40,6 @@ mod time_line;
 mod top_bar;
 pub mod walkers;
 
-use std::process::ExitCode;
-
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
 use bevy::window::{PresentMode, WindowResolution};
@@ -52,26 +50,43 @@ pub use session::Wanted;
 
 use crate::data::AssetFolder;
 
-/// Opens the window and returns when it is closed: at the menu, or in the match if one was chosen.
-pub fn open_window(assets: &AssetFolder, wanted: Wanted) -> ExitCode {
+/// How the window came to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WindowEnd {
+    /// By a person.
+    Closed,
+    /// By a person, while it showed a scenario that had failed.
+    ScenarioFailed,
+    /// By Ctrl-C in the terminal.
+    Interrupted,
+    /// By itself.
+    Failed,
+}
+
+/// Opens the window and returns how it ended: begins at the menu, or in the match if one is wanted.
+pub fn open_window(assets: &AssetFolder, wanted: Option<Wanted>) -> WindowEnd {
     let mut app = App::new();
-    app.add_plugins(
-        DefaultPlugins.set(WindowPlugin { primary_window: Some(window()), ..default() }).set(LogPlugin {
+    app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window()), ..default() }).set(
+        LogPlugin {
             level: Level::ERROR,
             filter: String::new(),
+            fmt_layer: crate::logging::window_layer,
             ..default()
-        }),
-    );
+        },
+    ));
     app.add_plugins((EguiPlugin::default(), crate::simulation, plugin, crate::inspector::plugin));
     app.insert_resource(session::Folder(assets.clone()));
-    if session::is_chosen(&wanted) {
-        app.insert_resource(session::Wish(Some(wanted)));
-    }
+    app.insert_resource(session::Wish(wanted));
     match app.run() {
-        AppExit::Success => ExitCode::SUCCESS,
-        AppExit::Error(code) => ExitCode::from(code.get()),
+        AppExit::Success => WindowEnd::Closed,
+        AppExit::Error(code) if code.get() == expectations::FAILED => WindowEnd::ScenarioFailed,
+        AppExit::Error(code) if code.get() == INTERRUPTED => WindowEnd::Interrupted,
+        AppExit::Error(_) => WindowEnd::Failed,
     }
 }
+
+/// What Bevy says after Ctrl-C.
+const INTERRUPTED: u8 = 130;
 
 fn window() -> Window {
     Window {

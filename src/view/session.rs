@@ -11,6 +11,7 @@ use crate::clock::Clock;
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan, start_match};
 use crate::ids::Team;
+use crate::rng::DEFAULT_SEED;
 use crate::scenario::ScenarioPlan;
 use crate::wire;
 
@@ -71,16 +72,6 @@ type Plans = (MatchPlan, Option<ScenarioPlan>);
 /// A match has been put into the world, from its beginning.
 #[derive(Event, Clone, Copy, Debug)]
 pub struct MatchBegun;
-
-/// Whether the command line has chosen something, rather than leaving it to the menu.
-pub fn is_chosen(wanted: &Wanted) -> bool {
-    let Wanted::Match(choice) = wanted else { return true };
-    let untouched = Choice { seed: choice.seed, ..Choice::default() };
-    *choice != untouched || choice.seed > DEFAULT_SEED
-}
-
-/// The seed of a match that nobody has chosen one for, as on the command line.
-pub const DEFAULT_SEED: u64 = 1;
 
 fn begin_wished_match(world: &mut World) {
     let Some(wanted) = world.resource_mut::<Wish>().0.take() else { return };
@@ -144,25 +135,6 @@ fn begin(world: &mut World, wanted: Wanted, (plan, scenario): Plans) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ids::RobotId;
-
-    #[test]
-    fn a_command_line_without_choice_leads_to_the_menu() {
-        assert!(!is_chosen(&Wanted::default()));
-        assert!(!is_chosen(&Wanted::Match(Choice { seed: DEFAULT_SEED, ..Choice::default() })));
-    }
-
-    #[test]
-    fn a_seed_a_team_or_a_pilot_is_a_choice() {
-        let pilot = Some(RobotId::new(Team::Away, 3));
-        for choice in [
-            Choice { seed: 7, ..Choice::default() },
-            Choice { home: Some("ball_chasers".into()), ..Choice::default() },
-            Choice { pilot, ..Choice::default() },
-        ] {
-            assert!(is_chosen(&Wanted::Match(choice)));
-        }
-    }
 
     #[test]
     fn a_scenario_is_played_with_its_first_seed_or_with_the_one_asked_for() {

@@ -19,7 +19,7 @@ use crate::game::MatchPlan;
 use crate::handling::Handling;
 use crate::head::Head;
 use crate::ids::RobotId;
-use crate::referee::Orders;
+use crate::referee::{Orders, RobotState};
 use crate::robot::{Recall, Robot};
 use crate::script::{Request, Requests, Treatment};
 use crate::sense::{Odometry, Percepts};
@@ -156,7 +156,7 @@ impl RemoteRobots {
     /// Tells the robots what they sense and hears what they want to do.
     pub fn exchange(&mut self, world: &mut World) {
         let tick = world.resource::<Clock>().tick;
-        self.tell(world, tick);
+        self.tell(world, tick, false);
         self.introduce();
         let begin = Instant::now();
         let patience = self.granted.map_or(PATIENCE, |granted| granted.min(PATIENCE));
@@ -186,7 +186,7 @@ impl RemoteRobots {
     }
 
     /// Tells those who take part.
-    fn tell(&mut self, world: &mut World, tick: u64) {
+    fn tell(&mut self, world: &mut World, tick: u64, is_over: bool) {
         let mut senses = world.query::<(&RobotId, &Percepts, &Odometry, &Head, &Handling, &Orders)>();
         for (id, percepts, odometry, head, handling, orders) in senses.iter(world) {
             let Some(remote) = self.robots.get_mut(id).filter(|remote| remote.is_in) else { continue };
@@ -200,7 +200,7 @@ impl RemoteRobots {
                 stalled_for: odometry.stalled_for,
                 pan: head.pan,
                 holds_ball: handling.holds(),
-                orders: *orders,
+                orders: if is_over { Orders { state: RobotState::Finished, ..*orders } } else { *orders },
             };
             remote.figures.told += 1;
             remote.spoken = Some(Instant::now());
@@ -219,7 +219,7 @@ impl RemoteRobots {
     /// Tells the robots that the match is over.
     pub fn finish(&mut self, world: &mut World) {
         let tick = world.resource::<Clock>().tick;
-        self.tell(world, tick);
+        self.tell(world, tick, true);
     }
 
     /// What comes next, if anything comes in time; `Some(None)` is something that is not for us.

@@ -16,6 +16,7 @@ use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
 use crate::radio::FaultRule;
+use crate::rng::LARGEST_SEED;
 
 type Result<T> = std::result::Result<T, DataError>;
 
@@ -216,6 +217,9 @@ impl Checker<'_> {
     fn seeds(&self, seeds: Vec<u64>, at: &Field) -> Result<Vec<u64>> {
         if seeds.is_empty() {
             return self.fault(at, "needs at least one seed");
+        }
+        if let Some(i) = seeds.iter().position(|seed| *seed > LARGEST_SEED) {
+            return self.fault(&at.index(i), format!("must be at most {LARGEST_SEED}, not {}", seeds[i]));
         }
         match seeds.iter().enumerate().find(|(i, seed)| seeds[..*i].contains(seed)) {
             Some((i, seed)) => self.fault(&at.index(i), format!("the seed {seed} is given twice")),

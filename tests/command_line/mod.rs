@@ -1,17 +1,43 @@
 //! The program as a person or a script calls it.
 
+#[cfg(unix)]
+mod interrupt;
+mod options;
+mod output;
+
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use crate::support::strategy_text;
 
+/// The program with these arguments, as it is started where there is no display.
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_touchline"));
+    where_there_is_no_display(&mut command).args(arguments);
+    command
+}
+
+fn where_there_is_no_display(command: &mut Command) -> &mut Command {
+    command.current_dir(env!("CARGO_MANIFEST_DIR")).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY")
+}
+
 fn touchline(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_touchline"))
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .env_remove("DISPLAY")
-        .env_remove("WAYLAND_DISPLAY")
-        .output()
-        .expect("the program starts")
+    program(arguments).output().expect("the program starts")
+}
+
+/// Writes a scenario in which the ball is expected where it is not.
+fn failing_scenario(folder: &Path) -> PathBuf {
+    let path = folder.join("failing.ron");
+    let text = r#"(
+        name: "The ball is far from where it is",
+        source: "a test",
+        seconds: 0.1,
+        home: (strategy: "ball_chasers", players: [(number: 0, at: (-3, 0))]),
+        ball: (at: (2, 2)),
+        expect: [Always(what: Distance(from: Ball, to: At(2, 2), above: 3))],
+    )"#;
+    std::fs::write(&path, text).expect("the file is written");
+    path
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -82,6 +108,30 @@ fn check_reads_all_assets() {
     assert!(output.status.success(), "{}", text(&output.stdout));
     assert!(text(&output.stdout).contains("all sound"));
     assert_eq!(touchline(&["check", "Cargo.toml"]).status.code(), Some(2));
+}
+
+#[test]
+fn a_scenario_that_fails_ends_with_exit_code_1_and_says_once_what_all_seeds_have_in_common() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = failing_scenario(folder.path());
+    let path = path.to_string_lossy();
+    for (call, line) in [(["check", &path], "all 10 seeds, tick 1 "), (["play", &path], "seed 1, tick 1 ")] {
+        let output = touchline(&call);
+        let said = text(&output.stdout);
+        assert_eq!(output.status.code(), Some(1), "{call:?}: {said}");
+        assert_eq!(said.matches("tick").count(), 1, "{said}");
+        assert!(said.contains(line), "{said}");
+    }
+}
+
+#[test]
+fn the_help_says_what_the_exit_codes_mean() {
+    for call in [&["--help"][..], &["run", "--help"], &["play", "--help"], &["check", "--help"]] {
+        let said = text(&touchline(call).stdout);
+        for line in ["0    done", "1    a scenario failed", "2    bad input", "130  interrupted"] {
+            assert!(said.contains(line), "`{line}` is not in: {said}");
+        }
+    }
 }
 
 #[test]
