@@ -67,7 +67,7 @@ impl Weights {
         requests.ask(Request::SetWeight { team, assemblage, term, weight });
     }
 
-    /// Takes note of the time, and says whether a match has begun anew since the last look.
+    /// Takes note of the time, and says whether another match has begun since the last look.
     fn restarted(&mut self, tick: u64) -> bool {
         tick < std::mem::replace(&mut self.last_tick, tick)
     }

@@ -6,12 +6,12 @@ use bevy::prelude::*;
 use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
-use super::Inspector;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::pilot::Pilot;
 use crate::teamwork::Role;
 use crate::view::layout::PanelSystems;
+use crate::view::opened::Inspector;
 
 pub(super) fn plugin(app: &mut App) {
     register_what_can_be_looked_at(app);

@@ -1,5 +1,4 @@
-//! What a person can do with one key or one button. The table of keys here is the only one: the keyboard, the tooltips and
-//! the help page all read it.
+//! What a person can do with one key or one button. Which keys is said in [`super::keys`].
 
 use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key, KeyboardInput};
@@ -35,86 +34,14 @@ pub enum Action {
     PreviousRobot,
     HandOver,
     Fit,
+    /// Opens or closes the inspector.
+    Inspector,
+    /// Opens or closes the view of the whole world.
+    World,
     Help,
     Escape,
     Leave,
     Switch(Overlay),
-}
-
-/// A key, what it is called and what it does.
-pub struct Binding {
-    /// As people call it.
-    pub keys: &'static str,
-    pub does: &'static str,
-    pub action: Action,
-}
-
-const fn bind(keys: &'static str, does: &'static str, action: Action) -> Binding {
-    Binding { keys, does, action }
-}
-
-/// All keys but those that drive.
-pub const BINDINGS: [Binding; 20] = [
-    bind("Space or P", "Pause, or play on", Action::PlayOrPause),
-    bind(".", "One tick", Action::OneTick),
-    bind("+", "Faster", Action::Faster),
-    bind("-", "Slower", Action::Slower),
-    bind("R", "Restart the match", Action::Restart),
-    bind("Tab", "Next robot", Action::NextRobot),
-    bind("Shift+Tab", "Previous robot", Action::PreviousRobot),
-    bind("H", "Take the selected robot over, or hand it back", Action::HandOver),
-    bind("F or Home", "Fit the pitch into the window", Action::Fit),
-    bind("1", "Motor-schema vectors", Action::Switch(Overlay::Vectors)),
-    bind("2", "Field of view", Action::Switch(Overlay::FieldOfView)),
-    bind("3", "Sensed and believed", Action::Switch(Overlay::Beliefs)),
-    bind("4", "Danger zone and homebase", Action::Switch(Overlay::Zones)),
-    bind("5", "Roles and activities", Action::Switch(Overlay::Labels)),
-    bind("6", "Teamwork: claims, supports, locks and messages", Action::Switch(Overlay::Teamwork)),
-    bind("M", "The radio: messages, bookings, interference", Action::Switch(Overlay::Radio)),
-    bind("N", "Team communication, and the referee box", Action::Switch(Overlay::Communication)),
-    bind("F1 or ?", "These keys", Action::Help),
-    bind("Escape", "Close what is open, or leave the match", Action::Escape),
-    bind("Escape", "Back to the menu", Action::Leave),
-];
-
-impl Action {
-    /// What a control says about itself: what it does, and its key.
-    pub fn tooltip(self) -> String {
-        let binding = BINDINGS.iter().find(|binding| binding.action == self);
-        binding.map_or_else(String::new, |binding| format!("{} ({})", binding.does, binding.keys))
-    }
-
-    /// The action of a key, and whether holding it repeats the action.
-    fn of(key: &Key, shift: bool) -> Option<(Action, bool)> {
-        let once = |action| Some((action, false));
-        match key {
-            Key::Space => once(Action::PlayOrPause),
-            Key::Tab => once(if shift { Action::PreviousRobot } else { Action::NextRobot }),
-            Key::Home => once(Action::Fit),
-            Key::F1 => once(Action::Help),
-            Key::Escape => once(Action::Escape),
-            Key::Character(typed) => match typed.to_lowercase().as_str() {
-                "p" => once(Action::PlayOrPause),
-                "." => Some((Action::OneTick, true)),
-                "+" | "=" => Some((Action::Faster, true)),
-                "-" => Some((Action::Slower, true)),
-                "r" => once(Action::Restart),
-                "h" => once(Action::HandOver),
-                "f" => once(Action::Fit),
-                "?" => once(Action::Help),
-                "1" => once(Action::Switch(Overlay::Vectors)),
-                "2" => once(Action::Switch(Overlay::FieldOfView)),
-                "3" => once(Action::Switch(Overlay::Beliefs)),
-                "4" => once(Action::Switch(Overlay::Zones)),
-                "5" => once(Action::Switch(Overlay::Labels)),
-                "6" => once(Action::Switch(Overlay::Teamwork)),
-                "m" => once(Action::Switch(Overlay::Radio)),
-                "n" => once(Action::Switch(Overlay::Communication)),
-                _ => None,
-            },
-            _ => None,
-        }
-    }
 }
 
 /// Tab goes to the next robot in a match, and not to the next button.
@@ -142,9 +69,9 @@ fn read_keys(
             // It kicks, and P pauses.
             continue;
         }
-        let Some((action, repeats)) = Action::of(&key.logical_key, shift) else { continue };
+        let Some(action) = Action::of(key, shift) else { continue };
         let answers = matches!(action, Action::Escape | Action::Help);
-        if (repeats || !key.repeat) && (answers || open.question.is_none()) {
+        if (action.repeats() || !key.repeat) && (answers || open.question.is_none()) {
             actions.write(action);
         }
     }
@@ -164,34 +91,5 @@ fn change_pace(mut actions: MessageReader<Action>, mut pace: ResMut<Pace>, mut o
             Action::Switch(overlay) => overlays.toggle(overlay),
             _ => {}
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn action(typed: &str) -> Option<Action> {
-        Action::of(&Key::Character(typed.into()), false).map(|(action, _)| action)
-    }
-
-    #[test]
-    fn letters_work_with_caps_lock_and_plus_without_shift() {
-        assert_eq!(action("R"), Some(Action::Restart));
-        assert_eq!(action("="), Some(Action::Faster));
-        assert_eq!(action("q"), None);
-    }
-
-    #[test]
-    fn shift_turns_tab_round() {
-        assert_eq!(Action::of(&Key::Tab, true), Some((Action::PreviousRobot, false)));
-        assert_eq!(Action::of(&Key::Tab, false), Some((Action::NextRobot, false)));
-    }
-
-    #[test]
-    fn a_tooltip_names_its_key() {
-        assert_eq!(Action::PlayOrPause.tooltip(), "Pause, or play on (Space or P)");
-        assert_eq!(Action::Switch(Overlay::Beliefs).tooltip(), "Sensed and believed (3)");
-        assert!(BINDINGS.iter().all(|binding| binding.action.tooltip().contains(binding.keys)));
     }
 }

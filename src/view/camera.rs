@@ -96,7 +96,7 @@ impl Sight {
     }
 }
 
-/// What a fit shows: pitch, goals and walls, and whoever waits beside them.
+/// What a fit shows: pitch, goals and walls, and the robots that wait beside them.
 ///
 /// Those who wait come with the room that each needs around it, m.
 fn zone_to_show(pitch: &Pitch, waiting: impl Iterator<Item = (Vec2, f32)>) -> Zone {
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_pitch_shows_some_of_its_carpet_and_whoever_waits_beyond() {
+    fn an_open_pitch_shows_some_of_its_carpet_and_the_robots_that_wait_beyond() {
         let goal = crate::pitch::Goal { width: 0.8, depth: 0.3 };
         let walls = crate::pitch::Walls { thickness: 0.05, friction: 0.2, restitution: 0.6, margin: 1.0 };
         let mut pitch = Pitch {

@@ -78,7 +78,7 @@ impl Form {
 
     /// Shows the form; the match to begin when that is asked for.
     pub fn show(&mut self, ui: &mut egui::Ui) -> Option<Choice> {
-        let width = ui.available_width() - 76.0;
+        let width = (ui.available_width() - 76.0).max(40.0);
         egui::Grid::new("custom match").num_columns(2).spacing([10.0, 12.0]).show(ui, |ui| {
             for (team, name) in ["Home", "Away"].into_iter().enumerate() {
                 ui.label(name);

@@ -6,7 +6,8 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 use super::FrameSystems;
 use super::actions::Action;
 use super::colours::{self, egui as paint};
-use super::layout::{FreeArea, PanelSystems};
+use super::keys::Keyboard;
+use super::layout::PanelSystems;
 use super::session::{MatchBegun, Session, Wish};
 use super::state::{Piloted, Screen, Selected};
 use crate::clock::Clock;
@@ -117,33 +118,53 @@ impl Doing<'_> {
     }
 }
 
-/// A window in the middle of the pitch that is not moved about.
-pub fn middle_window<'a>(title: &str, area: &FreeArea) -> egui::Window<'a> {
-    egui::Window::new(title.to_owned())
+/// Room around what is shown in the middle, to the edges of the screen, in points.
+const AROUND: f32 = 44.0;
+/// The widest that it becomes, in points.
+const WIDEST: f32 = 880.0;
+
+/// Shows something in the middle of the window that is not moved about and scrolls where it does not fit.
+pub fn show_in_the_middle<R>(
+    ctx: &egui::Context,
+    title: &str,
+    contents: impl FnOnce(&mut egui::Ui) -> R,
+) -> Option<R> {
+    let room = (ctx.content_rect().size() - egui::Vec2::splat(AROUND)).max(egui::Vec2::splat(1.0));
+    let shown = egui::Window::new(title.to_owned())
         .pivot(egui::Align2::CENTER_CENTER)
-        .fixed_pos(area.0.center())
+        .fixed_pos(ctx.content_rect().center())
         .title_bar(false)
         .collapsible(false)
-        .resizable(false)
+        .auto_sized()
         .constrain(true)
         .order(egui::Order::Foreground)
+        .show(ctx, |ui| {
+            ui.set_max_width(room.x.min(WIDEST));
+            let scroll = egui::ScrollArea::both()
+                .max_width(room.x)
+                .max_height(room.y)
+                .min_scrolled_width(room.x)
+                .min_scrolled_height(room.y);
+            scroll.show(ui, contents).inner
+        });
+    shown.and_then(|shown| shown.inner)
 }
 
-fn ask(mut contexts: EguiContexts, area: Res<FreeArea>, mut open: ResMut<Open>, mut doing: Doing) -> Result {
+fn ask(mut contexts: EguiContexts, mut open: ResMut<Open>, mut doing: Doing) -> Result {
     let Some(question) = open.question else { return Ok(()) };
     let ctx = contexts.ctx_mut()?;
     let [text, yes, no] = question.words();
-    let shown = middle_window("Question", &area).show(ctx, |ui| {
+    let shown = show_in_the_middle(ctx, "Question", |ui| {
         ui.label(egui::RichText::new(text).size(16.0));
         ui.add_space(8.0);
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let yes = ui.button(yes).on_hover_text("Enter").clicked();
             let no = ui.button(no).on_hover_text("Escape").clicked();
             (yes, no)
         })
         .inner
     });
-    let (clicked, refused) = shown.and_then(|shown| shown.inner).unwrap_or_default();
+    let (clicked, refused) = shown.unwrap_or_default();
     let confirmed = clicked || ctx.input(|input| input.key_pressed(egui::Key::Enter));
     if confirmed {
         doing.carry_out(question);
@@ -164,15 +185,15 @@ fn show_result_at_the_end(state: Res<MatchState>, mut open: ResMut<Open>, mut sh
 
 fn show_result(
     mut contexts: EguiContexts,
-    (area, open): (Res<FreeArea>, Res<Open>),
-    (state, strategies): (Res<MatchState>, Res<Strategies>),
+    open: Res<Open>,
+    (state, strategies, keyboard): (Res<MatchState>, Res<Strategies>, Res<Keyboard>),
     mut actions: MessageWriter<Action>,
 ) -> Result {
     if !open.result || open.question.is_some() {
         return Ok(());
     }
     let [home, away] = state.score;
-    middle_window("Full time", &area).show(contexts.ctx_mut()?, |ui| {
+    show_in_the_middle(contexts.ctx_mut()?, "Full time", |ui| {
         ui.vertical_centered(|ui| {
             ui.label(egui::RichText::new("Full time").size(16.0));
             ui.label(egui::RichText::new(format!("{home} : {away}")).size(36.0).strong());
@@ -182,13 +203,13 @@ fn show_result(
             }
         });
         ui.add_space(8.0);
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             for (text, action) in [("Play again", Action::Restart), ("Menu", Action::Leave)] {
-                if ui.button(text).on_hover_text(action.tooltip()).clicked() {
+                if ui.button(text).on_hover_text(keyboard.tip(action)).clicked() {
                     actions.write(action);
                 }
             }
-            if ui.button("Look at the pitch").on_hover_text(Action::Escape.tooltip()).clicked() {
+            if ui.button("Look at the pitch").on_hover_text(keyboard.tip(Action::Escape)).clicked() {
                 actions.write(Action::Escape);
             }
         });

@@ -12,7 +12,7 @@ fn no_display() -> Option<String> {
     }
     match x11rb::connect(None) {
         Ok((connection, _)) => {
-            // An X server starts anew when its last client leaves, and turns the next one away meanwhile.
+            // An X server starts again when its last client leaves, and turns the next one away meanwhile.
             KEPT_OPEN.get_or_init(|| connection);
             None
         }

@@ -3,11 +3,11 @@
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
-use super::actions::{Action, BINDINGS};
+use super::actions::Action;
 use super::colours::{self, egui as paint};
-use super::dialogues::{Open, middle_window};
-use super::layout::{FreeArea, PanelSystems};
-use super::pilot_seat::DRIVING_KEYS;
+use super::dialogues::{Open, show_in_the_middle};
+use super::keys::{BINDINGS, Deed, Keyboard};
+use super::layout::PanelSystems;
 use super::state::Screen;
 
 pub(super) fn plugin(app: &mut App) {
@@ -17,48 +17,47 @@ pub(super) fn plugin(app: &mut App) {
     );
 }
 
-/// The keys of the inspector, which reads them itself.
-const INSPECTOR: [(&str, &str); 2] =
-    [("I", "Open or close the inspector"), ("F12", "The whole world, entity by entity")];
 /// What the mouse does.
 const MOUSE: [(&str, &str); 3] =
     [("Click", "Select a robot"), ("Drag", "Move the pitch"), ("Wheel", "Zoom at the pointer")];
 
-fn show_help(mut contexts: EguiContexts, area: Res<FreeArea>, mut open: ResMut<Open>) -> Result {
+/// A narrower window has the keys in one column, in points.
+const TWO_COLUMNS: f32 = 860.0;
+
+fn show_help(mut contexts: EguiContexts, keyboard: Res<Keyboard>, mut open: ResMut<Open>) -> Result {
     if !open.help {
         return Ok(());
     }
-    let shown = middle_window("Keys", &area).show(contexts.ctx_mut()?, |ui| {
+    let shown = show_in_the_middle(contexts.ctx_mut()?, "Keys", |ui| {
         ui.heading("Keys");
         ui.add_space(4.0);
-        let keys = BINDINGS.iter().filter(|binding| binding.action != Action::Leave);
-        let keys = keys.map(|binding| (binding.keys, binding.does));
-        let all: Vec<_> = DRIVING_KEYS.into_iter().chain(keys).chain(INSPECTOR).chain(MOUSE).collect();
-        let (first, second) = all.split_at(all.len().div_ceil(2));
+        let keys = BINDINGS.iter().map(|binding| (keyboard.keys(binding.deed), binding.does));
+        let keys = keys.filter(|(keys, _)| !keys.is_empty());
+        let mouse = MOUSE.into_iter().map(|(keys, does)| (keys.to_owned(), does));
+        let all: Vec<_> = keys.chain(mouse).collect();
+        let columns = if ui.max_rect().width() < TWO_COLUMNS { 1 } else { 2 };
         ui.horizontal_top(|ui| {
-            table(ui, "first", first);
-            ui.add_space(28.0);
-            table(ui, "second", second);
+            for (column, rows) in all.chunks(all.len().div_ceil(columns)).enumerate() {
+                table(ui, column, rows);
+                ui.add_space(28.0);
+            }
         });
         ui.add_space(8.0);
         ui.label(egui::RichText::new("Signs beside robots").strong());
-        ui.scope(|ui| {
-            ui.set_max_width(820.0);
-            super::signs::show_legend(ui);
-        });
+        super::signs::show_legend(ui);
         ui.add_space(8.0);
-        ui.button("Close").on_hover_text("Escape").clicked()
+        ui.button("Close").on_hover_text(keyboard.keys(Deed::Act(Action::Escape))).clicked()
     });
-    if shown.and_then(|shown| shown.inner).unwrap_or(false) {
+    if shown.unwrap_or(false) {
         open.help = false;
     }
     Ok(())
 }
 
-fn table(ui: &mut egui::Ui, name: &str, rows: &[(&str, &str)]) {
-    egui::Grid::new(name).num_columns(2).spacing([16.0, 7.0]).show(ui, |ui| {
+fn table(ui: &mut egui::Ui, column: usize, rows: &[(String, &str)]) {
+    egui::Grid::new(("keys", column)).num_columns(2).spacing([16.0, 5.0]).show(ui, |ui| {
         for (keys, does) in rows {
-            ui.label(egui::RichText::new(*keys).color(paint(colours::CALL)));
+            ui.label(egui::RichText::new(keys).color(paint(colours::CALL)));
             ui.label(*does);
             ui.end_row();
         }

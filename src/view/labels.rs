@@ -10,7 +10,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
 use super::camera::Sight;
 use super::colours::{self, egui as paint};
-use super::layout::{FreeArea, PanelSystems};
+use super::layout::{FreeArea, PanelSystems, nearest_within};
 use super::nudge::{Choice, Placed};
 use super::rings::SELECTED;
 use super::robots::{Plate, reach};
@@ -94,11 +94,11 @@ fn lines(
     lines
 }
 
-/// How long a robot is off the pitch yet.
-fn off_text(state: &MatchState, robot: RobotId) -> String {
+/// How much longer a robot is off the pitch.
+pub fn off_text(state: &MatchState, robot: RobotId) -> String {
     match state.removed.iter().find(|removal| removal.robot == robot) {
-        // A referee box, or whoever took it off, decides when it comes back.
-        Some(removal) if removal.seconds_left.is_infinite() => "taken off".into(),
+        // A referee box, or the script that took it off, decides when it comes back.
+        Some(removal) if !removal.seconds_left.is_finite() => "taken off".into(),
         Some(removal) if removal.seconds_left > 0.0 => format!("off for {} s", removal.seconds_left.ceil()),
         _ => "waits to return".into(),
     }
@@ -117,6 +117,9 @@ fn write_on_pitch(
     let layer = egui::LayerId::new(egui::Order::Background, egui::Id::new("text on the pitch"));
     let painter = ctx.layer_painter(layer).with_clip_rect(area.0);
     placed.clear(area.0);
+    if area.0.width() < 2.0 * EDGE || area.0.height() < 2.0 * EDGE {
+        return Ok(());
+    }
     for (shown, plate) in &shown {
         let reach = match (ball.get(shown.body), plate, robots.get(shown.body)) {
             (Ok(ball), ..) => ball.kind.radius,
@@ -144,13 +147,13 @@ fn write_on_pitch(
         let edge = area.0.shrink(EDGE);
         if robot.off_pitch && !edge.contains(middle) {
             // Robots that wait out of sight are told at the edge.
-            (at, middle, reach) = (edge.clamp(at), edge.clamp(middle), PLATE);
+            (at, middle, reach) = (nearest_within(edge, at), nearest_within(edge, middle), PLATE);
         }
         write_number(&painter, at, &plate, sight.scale);
         let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
         let cut_off = conditions.cut_off.contains(robot.id);
         let signs = Sign::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
-        let corner = edge.clamp(middle + egui::vec2(0.8, -0.8) * reach);
+        let corner = nearest_within(edge, middle + egui::vec2(0.8, -0.8) * reach);
         let corner =
             if corner.distance(at) < 1.5 * PLATE { at + egui::vec2(1.5 * PLATE, 0.0) } else { corner };
         for (place, sign) in signs.iter().enumerate() {

@@ -14,7 +14,8 @@ pub(super) fn plugin(app: &mut App) {
                 PanelSystems::Top,
                 PanelSystems::Bottom,
                 PanelSystems::Low,
-                PanelSystems::Side,
+                PanelSystems::Left,
+                PanelSystems::Right,
                 PanelSystems::Pitch,
                 PanelSystems::Notes,
                 PanelSystems::Floating,
@@ -35,8 +36,10 @@ pub enum PanelSystems {
     Bottom,
     /// Above the bar at the bottom: the radio.
     Low,
-    /// At the sides: the inspector, the scenario.
-    Side,
+    /// At the left: the scenario.
+    Left,
+    /// At the right: the inspector.
+    Right,
     /// Text on the pitch, in the area that is free now.
     Pitch,
     /// Text on the pitch that finds its place among what is there.
@@ -56,6 +59,28 @@ impl Default for FreeArea {
     }
 }
 
+/// The least of the window that is left to the pitch, in points; panels are smaller or away where there is not more.
+pub const PITCH: egui::Vec2 = egui::vec2(160.0, 100.0);
+/// A panel that cannot be larger than this is left out, in points.
+const NOTHING: f32 = 40.0;
+
+/// A panel whose edge can be dragged.
+pub struct SizedPanel {
+    pub id: &'static str,
+    pub edge: Edge,
+    /// From edge to edge, in points.
+    pub least: f32,
+    pub most: f32,
+    pub frame: egui::Frame,
+}
+
+/// Where a panel that can be dragged docks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    Right,
+    Bottom,
+}
+
 impl FreeArea {
     /// Shows a panel at an edge of the free area and takes its space from it.
     pub fn dock<R>(
@@ -65,16 +90,100 @@ impl FreeArea {
         panel: egui::Panel,
         contents: impl FnOnce(&mut egui::Ui) -> R,
     ) -> R {
+        self.dock_response(ctx, id, panel, contents).inner
+    }
+
+    fn dock_response<R>(
+        &mut self,
+        ctx: &egui::Context,
+        id: &str,
+        panel: egui::Panel,
+        contents: impl FnOnce(&mut egui::Ui) -> R,
+    ) -> egui::InnerResponse<R> {
         let place = egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(self.0);
         let mut root = egui::Ui::new(ctx.clone(), egui::Id::new(("dock", id)), place);
         root.set_clip_rect(self.0);
-        let shown = panel.show_inside(&mut root, contents).inner;
-        self.0 = root.available_rect_before_wrap();
+        let shown = panel.show_inside(&mut root, contents);
+        // Contents that do not fit reach beyond the panel, but the pitch does not.
+        self.0 = root.available_rect_before_wrap().intersect(self.0);
         shown
     }
+
+    /// How large a panel may be, so that the pitch keeps its least size.
+    pub fn room(&self, edge: Edge) -> f32 {
+        match edge {
+            Edge::Right => self.0.width() - PITCH.x,
+            Edge::Bottom => self.0.height() - PITCH.y,
+        }
+    }
+
+    /// Shows a panel as large as a person has made it, or as there is room for; none where there is almost no room.
+    pub fn dock_sized<R>(
+        &mut self,
+        ctx: &egui::Context,
+        panel: SizedPanel,
+        size: &mut f32,
+        contents: impl FnOnce(&mut egui::Ui) -> R,
+    ) -> Option<R> {
+        let room = self.room(panel.edge);
+        let along = |size: egui::Vec2| if panel.edge == Edge::Right { size.x } else { size.y };
+        let at = |id: &str| match panel.edge {
+            Edge::Right => egui::Panel::right(egui::Id::new(id)),
+            Edge::Bottom => egui::Panel::bottom(egui::Id::new(id)),
+        };
+        *size = size.clamp(panel.least, panel.most);
+        if room < *size {
+            // Its own size waits for a larger window.
+            let id = format!("{}, squeezed", panel.id);
+            let shape = at(&id).resizable(false).exact_size(room).frame(panel.frame);
+            return (room >= NOTHING).then(|| self.dock(ctx, &id, shape, contents));
+        }
+        let shape = at(panel.id)
+            .resizable(true)
+            .default_size(*size)
+            .size_range(panel.least..=panel.most.min(room))
+            .frame(panel.frame);
+        let shown = self.dock_response(ctx, panel.id, shape, contents);
+        *size = along(shown.response.rect.size());
+        Some(shown.inner)
+    }
+}
+
+/// The point of a rectangle that is nearest to another; its middle if it has no extent.
+pub fn nearest_within(rect: egui::Rect, at: egui::Pos2) -> egui::Pos2 {
+    let nearest = |range: egui::Rangef, at: f32| {
+        if range.min <= range.max { at.clamp(range.min, range.max) } else { range.center() }
+    };
+    egui::pos2(nearest(rect.x_range(), at.x), nearest(rect.y_range(), at.y))
 }
 
 fn clear_area(mut contexts: EguiContexts, mut area: ResMut<FreeArea>) -> Result {
     area.0 = contexts.ctx_mut()?.content_rect();
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn the_nearest_point_is_within_or_in_the_middle(
+            (left, top, width, height) in (-50.0f32..50.0, -50.0f32..50.0, -100.0f32..100.0, -100.0f32..100.0),
+            (x, y) in (-200.0f32..200.0, -200.0f32..200.0),
+        ) {
+            let rect = egui::Rect::from_min_size(egui::pos2(left, top), egui::vec2(width, height));
+            let at = nearest_within(rect, egui::pos2(x, y));
+            if width >= 0.0 {
+                prop_assert!((rect.left()..=rect.right()).contains(&at.x));
+            } else {
+                prop_assert_eq!(at.x, rect.center().x);
+            }
+            if height >= 0.0 && rect.y_range().contains(y) {
+                prop_assert_eq!(at.y, y);
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! The first thing that a person sees: three cards, of which the first needs no thought.
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 use egui::{Color32, RichText, vec2};
@@ -62,61 +63,104 @@ fn enter(world: &mut World) {
     }
 }
 
+/// What the cards show and ask for.
+#[derive(SystemParam)]
+struct Cards<'w> {
+    third: ResMut<'w, ThirdCard>,
+    form: ResMut<'w, Form>,
+    scenarios: ResMut<'w, ScenarioList>,
+}
+
 fn show_menu(
     mut contexts: EguiContexts,
     area: Res<FreeArea>,
-    (mut third, mut form, mut scenarios): (ResMut<ThirdCard>, ResMut<Form>, ResMut<ScenarioList>),
+    mut cards: Cards,
     (mut wish, trouble): (ResMut<Wish>, Res<Trouble>),
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
     let place = egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(area.0);
     let mut ui = egui::Ui::new(ctx.clone(), egui::Id::new("menu"), place);
     paint_pitch(ui.painter(), area.0);
-    let width = 3.0 * CARD.x + 2.0 * GAP;
-    let left = ((area.0.width() - width) / 2.0).max(8.0);
-    ui.add_space((area.0.height() * 0.11).max(12.0));
+    let mut wanted = None;
+    egui::ScrollArea::vertical().auto_shrink(false).show(&mut ui, |ui| {
+        show_title(ui, area.0.height());
+        if let Some(trouble) = trouble.0.as_ref().filter(|_| area.0.height() < ROOMY) {
+            show_trouble(ui, trouble);
+        }
+        wanted = show_cards(ui, &mut cards);
+        if let Some(trouble) = trouble.0.as_ref().filter(|_| area.0.height() >= ROOMY) {
+            show_trouble(ui, trouble);
+        }
+    });
+    if wanted.is_some() {
+        wish.0 = wanted;
+    }
+    Ok(())
+}
+
+/// A window that is lower than this has a small title, and what went wrong above the cards, in points.
+const ROOMY: f32 = 600.0;
+
+fn show_title(ui: &mut egui::Ui, height: f32) {
+    let (above, size, below) = if height < ROOMY { (8.0, 32.0, 10.0) } else { (0.11 * height, 52.0, 36.0) };
+    ui.add_space(above);
     ui.vertical_centered(|ui| {
-        ui.label(RichText::new("Touchline").size(52.0).color(Color32::WHITE));
+        ui.label(RichText::new("Touchline").size(size).color(Color32::WHITE));
         ui.label(
             RichText::new("Robot soccer, as in the RoboCup hall of 2001").size(18.0).color(Color32::WHITE),
         );
     });
-    ui.add_space(36.0);
-    ui.horizontal_top(|ui| {
-        ui.spacing_mut().item_spacing.x = GAP;
-        ui.add_space(left);
-        let play = "You drive one robot of the home team against the CMU Hammerheads of 2001. Your three team mates \
-                    chase the ball by themselves.";
-        if picture_card(ui, "Play against the Hammerheads", Picture::Play, play, "Play") {
-            wish.0 = Some(Wanted::Match(against_the_hammerheads()));
-        }
-        let watch = "The CMU Hammerheads play against a team of ball chasers. Select a robot to see what it senses, \
-                     believes and wants, and take it over whenever you like.";
-        if picture_card(ui, "Watch", Picture::Watch, watch, "Watch") {
-            wish.0 = Some(Wanted::Match(to_watch()));
-        }
-        let wanted = bare_card(ui, |ui| {
-            show_tabs(ui, &mut third);
-            ui.add_space(6.0);
-            match *third {
-                ThirdCard::Scenarios => scenarios.show(ui),
-                ThirdCard::CustomMatch => form.show(ui).map(Wanted::Match),
+    ui.add_space(below);
+}
+
+/// The three cards, as many beside each other as there is room for.
+fn show_cards(ui: &mut egui::Ui, cards: &mut Cards) -> Option<Wanted> {
+    let room = ui.available_width();
+    let columns = (((room + GAP) / (CARD.x + GAP)) as usize).clamp(1, 3);
+    let card = CARD.x.min(room).max(1.0);
+    let width = columns as f32 * (card + GAP) - GAP;
+    let mut wanted = None;
+    for row in [0, 1, 2].chunks(columns) {
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            ui.add_space(((room - width) / 2.0).max(0.0));
+            for number in row {
+                wanted = show_card(ui, *number, card, cards).or(wanted.take());
             }
         });
-        if wanted.is_some() {
-            wish.0 = wanted;
-        }
-    });
-    if let Some(trouble) = &trouble.0 {
-        ui.add_space(20.0);
-        ui.vertical_centered(|ui| {
-            let frame =
-                super::style::panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 8)).corner_radius(6);
-            frame
-                .show(ui, |ui| ui.add(egui::Label::new(RichText::new(trouble).color(Color32::WHITE)).wrap()));
-        });
+        ui.add_space(GAP - ui.spacing().item_spacing.y);
     }
-    Ok(())
+    wanted
+}
+
+fn show_card(ui: &mut egui::Ui, number: usize, width: f32, cards: &mut Cards) -> Option<Wanted> {
+    let play = "You drive one robot of the home team against the CMU Hammerheads of 2001. Your three team mates \
+                chase the ball by themselves.";
+    let watch = "The CMU Hammerheads play against a team of ball chasers. Select a robot to see what it senses, \
+                 believes and wants, and take it over whenever you like.";
+    match number {
+        0 => picture_card(ui, width, "Play against the Hammerheads", Picture::Play, play, "Play")
+            .then(|| Wanted::Match(against_the_hammerheads())),
+        1 => picture_card(ui, width, "Watch", Picture::Watch, watch, "Watch")
+            .then(|| Wanted::Match(to_watch())),
+        _ => bare_card(ui, width, |ui| {
+            show_tabs(ui, &mut cards.third);
+            ui.add_space(6.0);
+            match *cards.third {
+                ThirdCard::Scenarios => cards.scenarios.show(ui),
+                ThirdCard::CustomMatch => cards.form.show(ui).map(Wanted::Match),
+            }
+        }),
+    }
+}
+
+fn show_trouble(ui: &mut egui::Ui, trouble: &str) {
+    ui.vertical_centered(|ui| {
+        let frame =
+            super::style::panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 8)).corner_radius(6);
+        frame.show(ui, |ui| ui.add(egui::Label::new(RichText::new(trouble).color(Color32::WHITE)).wrap()));
+    });
+    ui.add_space(10.0);
 }
 
 /// The titles of the third card, of which one is chosen.
@@ -139,18 +183,9 @@ fn show_tabs(ui: &mut egui::Ui, third: &mut ThirdCard) {
     });
 }
 
-/// A card with a title, and the rest of it up to whoever calls.
-fn card<R>(ui: &mut egui::Ui, title: &str, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
-    bare_card(ui, |ui| {
-        ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
-        ui.add_space(6.0);
-        contents(ui)
-    })
-}
-
-fn bare_card<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
+fn bare_card<R>(ui: &mut egui::Ui, width: f32, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
     let frame = egui::Frame::new().fill(paint(colours::PANEL)).corner_radius(10).inner_margin(18);
-    let inner = CARD - frame.total_margin().sum();
+    let inner = (vec2(width, CARD.y) - frame.total_margin().sum()).max(vec2(1.0, 1.0));
     let shown = frame.show(ui, |ui| {
         ui.set_width(inner.x);
         ui.set_height(inner.y);
@@ -163,9 +198,18 @@ fn bare_card<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) ->
     shown.inner
 }
 
-/// A card with a picture, a few words and a button; whether that was clicked.
-fn picture_card(ui: &mut egui::Ui, title: &str, picture: Picture, text: &str, button: &str) -> bool {
-    card(ui, title, |ui| {
+/// A card with a title, a picture, a few words and a button; whether that was clicked.
+fn picture_card(
+    ui: &mut egui::Ui,
+    width: f32,
+    title: &str,
+    picture: Picture,
+    text: &str,
+    button: &str,
+) -> bool {
+    bare_card(ui, width, |ui| {
+        ui.label(RichText::new(title).size(20.0).color(paint(colours::PILOT)));
+        ui.add_space(6.0);
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 96.0), egui::Sense::hover());
         paint_picture(ui.painter(), rect, picture);
         ui.add_space(6.0);

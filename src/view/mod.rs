@@ -4,7 +4,7 @@
 //! Units of the picture are metres of the pitch frame. What is drawn are entities of their own, which follow the bodies of
 //! the simulation; see [`shown`].
 
-mod actions;
+pub mod actions;
 mod ball;
 mod bottom_bar;
 mod calls;
@@ -16,12 +16,16 @@ mod display;
 pub mod driver;
 mod expectations;
 mod help;
+#[cfg(test)]
+mod interface_tests;
+pub mod keys;
 pub mod labels;
 pub mod layout;
 pub mod levers;
 mod menu;
 mod menu_art;
 pub mod nudge;
+pub mod opened;
 mod pilot_seat;
 mod pitch;
 mod reload;
@@ -31,6 +35,7 @@ mod scenario_box;
 mod scenario_list;
 mod selection;
 pub mod session;
+pub mod settings;
 mod shapes;
 pub mod shown;
 mod signs;
@@ -39,6 +44,7 @@ mod style;
 mod time_line;
 mod top_bar;
 pub mod walkers;
+mod window_size;
 
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
@@ -77,6 +83,9 @@ pub fn open_window(assets: &AssetFolder, wanted: Option<Wanted>) -> WindowEnd {
     app.add_plugins((EguiPlugin::default(), crate::simulation, plugin, crate::inspector::plugin));
     app.insert_resource(session::Folder(assets.clone()));
     app.insert_resource(session::Wish(wanted));
+    if let Some(file) = settings::SettingsFile::of_this_person() {
+        app.insert_resource(file);
+    }
     match app.run() {
         AppExit::Success => WindowEnd::Closed,
         AppExit::Error(code) if code.get() == expectations::FAILED => WindowEnd::ScenarioFailed,
@@ -92,7 +101,7 @@ fn window() -> Window {
     Window {
         title: "Touchline".into(),
         name: Some("touchline".into()),
-        resolution: WindowResolution::new(1280, 720),
+        resolution: WindowResolution::new(window_size::FIRST.x, window_size::FIRST.y),
         present_mode: PresentMode::AutoVsync,
         ..default()
     }
@@ -114,9 +123,9 @@ enum FrameSystems {
 fn plugin(app: &mut App) {
     app.insert_resource(ClearColor(colours::FLOOR))
         .add_plugins((played, layout::plugin, style::plugin, camera::plugin, labels::plugin, reload::plugin))
-        .add_plugins((actions::plugin, selection::plugin, pilot_seat::plugin))
+        .add_plugins((actions::plugin, keys::plugin, selection::plugin, pilot_seat::plugin))
         .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin))
-        .add_plugins(scenario_box::plugin);
+        .add_plugins((scenario_box::plugin, opened::plugin, settings::plugin, window_size::plugin));
 }
 
 /// The match and its picture, without camera and interface: what can be tried without a window.

@@ -4,7 +4,7 @@ use bevy::prelude::Resource;
 use bevy_egui::egui;
 use egui::{Pos2, Rect, Vec2, vec2};
 
-/// What has been placed in this frame; whoever writes on the pitch asks it for room.
+/// What has been placed in this frame; each text on the pitch gets its place from it.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Placed {
     /// Where labels are seen; everywhere, if not given.

@@ -8,6 +8,7 @@ use bevy_egui::EguiContexts;
 use super::FrameSystems;
 use super::actions::Action;
 use super::dialogues::Open;
+use super::keys::Drive;
 use super::levers::{Levers, Pull, aimed};
 use super::state::{Piloted, Selected};
 use crate::clock::Clock;
@@ -21,16 +22,6 @@ pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Levers>()
         .add_systems(Update, (change_seat, steer).chain().in_set(FrameSystems::Input));
 }
-
-/// What the driving keys are called.
-pub const DRIVING_KEYS: [(&str, &str); 6] = [
-    ("W S or Up Down", "Drive ahead or back"),
-    ("A D or Left Right", "Turn left or right"),
-    ("Q E", "Step to the left or right (on four legs)"),
-    ("Space", "Kick ahead, while you drive four legs"),
-    ("Z X", "Kick to the left or right (on four legs)"),
-    ("C, held", "Hold the ball under the chin (on four legs)"),
-];
 
 /// The robot under a person's hands.
 #[derive(SystemParam)]
@@ -63,18 +54,18 @@ impl Seat<'_, '_> {
 }
 
 /// What the keys that are down say.
-fn pull(down: impl Fn([KeyCode; 2]) -> bool) -> Pull {
-    use KeyCode::{ArrowDown, ArrowLeft, ArrowRight, ArrowUp, KeyA, KeyC, KeyD, KeyE, KeyQ, KeyS, KeyW};
+fn pull(down: impl Fn(Drive) -> bool) -> Pull {
     let lever = |plus, minus| f32::from(u8::from(down(plus))) - f32::from(u8::from(down(minus)));
     Pull {
-        walk: Vec2::new(lever([KeyW, ArrowUp], [KeyS, ArrowDown]), lever([KeyQ; 2], [KeyE; 2])),
-        turn: lever([KeyA, ArrowLeft], [KeyD, ArrowRight]),
-        hold: down([KeyC; 2]),
+        walk: Vec2::new(lever(Drive::Ahead, Drive::Back), lever(Drive::StepLeft, Drive::StepRight)),
+        turn: lever(Drive::TurnLeft, Drive::TurnRight),
+        hold: down(Drive::Hold),
     }
 }
 
-/// The keys that kick, and where to, degrees to the left of straight ahead.
-const KICKS: [(KeyCode, f32); 3] = [(KeyCode::Space, 0.0), (KeyCode::KeyZ, 75.0), (KeyCode::KeyX, -75.0)];
+/// What kicks, and where to, degrees to the left of straight ahead.
+const KICKS: [(Drive, f32); 3] =
+    [(Drive::KickAhead, 0.0), (Drive::KickLeft, 75.0), (Drive::KickRight, -75.0)];
 
 fn change_seat(
     mut actions: MessageReader<Action>,
@@ -106,16 +97,16 @@ fn steer(
     if last.map(|(robot, _)| robot) != seat.id() {
         *levers = Levers::default();
     }
-    for (key, direction) in KICKS {
+    for (kick, direction) in KICKS {
         if !elsewhere
-            && held.pressed(key)
+            && kick.is_held(&held)
             && let Some(kick) = seat.kick_to(direction)
         {
             levers.kick(kick, &clock);
         }
     }
     levers.let_kick_pass(&clock);
-    let keys = pull(|keys| !elsewhere && held.any_pressed(keys));
+    let keys = pull(|drive| !elsewhere && drive.is_held(&held));
     let now = seat.id().map(|robot| (robot, levers.with(keys)));
     if let Some((robot, pilot)) = now.filter(|now| seat.piloted.is_changed() || Some(*now) != *last) {
         requests.ask(Request::Steer { robot, pilot });
@@ -128,28 +119,26 @@ fn steer(
 mod tests {
     use super::*;
 
-    fn pressed(keys: &[KeyCode]) -> Pull {
-        pull(|wanted| wanted.iter().any(|key| keys.contains(key)))
+    fn held(drives: &[Drive]) -> Pull {
+        pull(|wanted| drives.contains(&wanted))
     }
 
     #[test]
-    fn letters_and_arrows_drive_alike() {
-        let (left, right) =
-            (pressed(&[KeyCode::KeyW, KeyCode::KeyA]), pressed(&[KeyCode::ArrowDown, KeyCode::ArrowRight]));
-        assert_eq!((left.walk, left.turn), (Vec2::X, 1.0));
-        assert_eq!((right.walk, right.turn), (Vec2::NEG_X, -1.0));
+    fn keys_walk_and_turn_at_once() {
+        let pull = held(&[Drive::Ahead, Drive::TurnRight]);
+        assert_eq!((pull.walk, pull.turn), (Vec2::X, -1.0));
     }
 
     #[test]
     fn opposite_keys_cancel() {
-        assert_eq!(pressed(&[KeyCode::KeyW, KeyCode::KeyS]), Pull::default());
-        assert_eq!(pressed(&[KeyCode::KeyQ, KeyCode::KeyE]), Pull::default());
-        assert_eq!(pressed(&[]), Pull::default());
+        assert_eq!(held(&[Drive::Ahead, Drive::Back]), Pull::default());
+        assert_eq!(held(&[Drive::StepLeft, Drive::StepRight]), Pull::default());
+        assert_eq!(held(&[]), Pull::default());
     }
 
     #[test]
-    fn q_steps_to_the_left_and_c_holds() {
-        let keys = pressed(&[KeyCode::KeyQ, KeyCode::KeyC]);
-        assert_eq!((keys.walk, keys.hold), (Vec2::Y, true));
+    fn a_robot_steps_to_the_left_while_it_holds_the_ball() {
+        let pull = held(&[Drive::StepLeft, Drive::Hold]);
+        assert_eq!((pull.walk, pull.hold), (Vec2::Y, true));
     }
 }

@@ -15,12 +15,14 @@ use crate::clock::Clock;
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(
         EguiPrimaryContextPass,
-        show_box.in_set(PanelSystems::Side).run_if(in_state(Screen::Match)),
+        show_box.in_set(PanelSystems::Left).run_if(in_state(Screen::Match)),
     );
 }
 
 /// Width of the box in points.
 const WIDTH: f32 = 250.0;
+/// It is left out where it would be narrower than this, in points.
+const LEAST: f32 = 100.0;
 /// Of the sign before an expectation, in points.
 const SIGN: f32 = 16.0;
 
@@ -31,9 +33,13 @@ fn show_box(
 ) -> Result {
     let Some(plan) = &session.scenario else { return Ok(()) };
     let scenario = &plan.scenario;
+    let width = WIDTH.min(area.0.width() / 3.0);
+    if width < LEAST {
+        return Ok(());
+    }
     let panel = egui::Panel::left("scenario")
         .resizable(false)
-        .exact_size(WIDTH)
+        .exact_size(width)
         .frame(panel_frame(colours::PANEL, egui::Margin::same(10)));
     area.dock(contexts.ctx_mut()?, "scenario", panel, |ui| {
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

@@ -44,7 +44,7 @@ impl ScenarioList {
             return None;
         }
         let mut asked = false;
-        let room = ui.available_height() - 46.0;
+        let room = (ui.available_height() - 46.0).max(20.0);
         egui::ScrollArea::vertical().max_height(room).auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 3.0;
             for (index, entry) in self.entries.iter().enumerate() {
@@ -77,7 +77,7 @@ fn show_entry(ui: &mut egui::Ui, entry: &Entry, is_chosen: bool) -> egui::Respon
         Ok([name, source]) => (name.as_str(), source.as_str(), colours::QUIET),
         Err(fault) => ("A file with a fault", fault.as_str(), colours::PENALTY),
     };
-    let width = ui.available_width() - 10.0;
+    let width = (ui.available_width() - 10.0).max(30.0);
     let text = |text: &str, size: f32, colour| {
         let text = RichText::new(text).size(size).color(paint(colour));
         egui::WidgetText::from(text)

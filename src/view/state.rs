@@ -1,6 +1,7 @@
 //! What the window remembers: the selection, which overlays are drawn, and how time passes. Shared by view and inspector.
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::ids::RobotId;
 
@@ -13,7 +14,8 @@ pub struct Selected(pub Option<RobotId>);
 pub struct Piloted(pub Option<RobotId>);
 
 /// What is drawn on top of the pitch, and the panel below it.
-#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "Vec<Overlay>", into = "Vec<Overlay>")]
 pub struct Overlays {
     /// Motor-schema vectors of the selected robot.
     pub vectors: bool,
@@ -34,7 +36,7 @@ pub struct Overlays {
 }
 
 /// One of the [`Overlays`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Overlay {
     Vectors,
     FieldOfView,
@@ -46,7 +48,54 @@ pub enum Overlay {
     Communication,
 }
 
+impl Overlay {
+    pub const ALL: [Overlay; 8] = [
+        Overlay::Vectors,
+        Overlay::FieldOfView,
+        Overlay::Beliefs,
+        Overlay::Zones,
+        Overlay::Labels,
+        Overlay::Teamwork,
+        Overlay::Radio,
+        Overlay::Communication,
+    ];
+}
+
+impl From<Vec<Overlay>> for Overlays {
+    fn from(on: Vec<Overlay>) -> Overlays {
+        Overlays::only(on)
+    }
+}
+
+impl From<Overlays> for Vec<Overlay> {
+    fn from(mut overlays: Overlays) -> Vec<Overlay> {
+        Overlay::ALL.into_iter().filter(|overlay| *overlays.switch(*overlay)).collect()
+    }
+}
+
 impl Overlays {
+    const NONE: Overlays = Overlays {
+        vectors: false,
+        field_of_view: false,
+        beliefs: false,
+        zones: false,
+        labels: false,
+        teamwork: false,
+        radio: false,
+        communication: false,
+    };
+
+    /// These and no others.
+    pub fn only(on: impl IntoIterator<Item = Overlay>) -> Overlays {
+        let mut overlays = Overlays::NONE;
+        for overlay in on {
+            if !*overlays.switch(overlay) {
+                overlays.toggle(overlay);
+            }
+        }
+        overlays
+    }
+
     /// The switch of one of them.
     pub fn switch(&mut self, overlay: Overlay) -> &mut bool {
         match overlay {
@@ -75,16 +124,8 @@ impl Overlays {
 
 impl Default for Overlays {
     fn default() -> Overlays {
-        Overlays {
-            vectors: true,
-            field_of_view: true,
-            beliefs: true,
-            zones: false,
-            labels: true,
-            teamwork: true,
-            radio: false,
-            communication: false,
-        }
+        use Overlay::{Beliefs, FieldOfView, Labels, Teamwork, Vectors};
+        Overlays::only([Vectors, FieldOfView, Beliefs, Labels, Teamwork])
     }
 }
 

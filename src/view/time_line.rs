@@ -11,6 +11,8 @@ use super::top_bar::clock_text;
 use crate::referee::{Decision, RuleBook};
 
 const HEIGHT: f32 = 22.0;
+/// There is nothing to see on a narrower line, in points.
+const NARROWEST: f32 = 120.0;
 /// The pointer means an event that is no farther away than this, in points.
 const NEAR: f32 = 6.0;
 
@@ -23,6 +25,9 @@ fn share(played: f64, book: &RuleBook) -> f32 {
 pub fn show_time_line(ui: &mut egui::Ui, events: &[Happening], now: f64, book: &RuleBook) {
     let (rect, response) =
         ui.allocate_exact_size(egui::vec2(ui.available_width(), HEIGHT), egui::Sense::hover());
+    if rect.width() < NARROWEST {
+        return;
+    }
     let painter = ui.painter();
     let line = rect.shrink2(egui::vec2(44.0, 0.0));
     let x = |played: f64| line.left() + share(played, book) * line.width();

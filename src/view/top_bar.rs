@@ -23,6 +23,10 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 const HEIGHT: f32 = 66.0;
+/// In a lower window the bar at the bottom needs the room, in points.
+const LEAST_WINDOW: f32 = 240.0;
+/// Share of the window that a long trouble may cover.
+const TROUBLE: f32 = 0.25;
 /// From the middle to where the teams' names begin.
 const SCORE_HALF: f32 = 52.0;
 
@@ -50,6 +54,9 @@ fn show_top_bar(
     (state, strategies): (Res<MatchState>, Res<Strategies>),
     (call, pace, session): (Res<Call>, Res<Pace>, Res<Session>),
 ) -> Result {
+    if area.0.height() < LEAST_WINDOW {
+        return Ok(());
+    }
     let panel = egui::Panel::top("top bar")
         .exact_size(HEIGHT)
         .resizable(false)
@@ -75,15 +82,17 @@ fn show_top_bar(
         }
         let half = if state.half == 1 { "first half" } else { "second half" };
         let clock = format!("{} left, {half}", clock_text(state.time_left));
-        write(pos2(middle - 14.0, second), Align2::RIGHT_CENTER, &clock, font(16.0), colours::TEXT);
-        let at = pos2(middle + 14.0, second);
-        match call.text() {
-            Some(call) => write(at, Align2::LEFT_CENTER, call, font(16.0), colours::CALL),
-            None => {
-                let text = phase_text(state.phase, pace.paused);
-                write(at, Align2::LEFT_CENTER, text, font(16.0), colours::QUIET)
-            }
+        let room = rect.width() / 2.0 - 14.0 - 8.0;
+        let clock = one_line(ui, &clock, 16.0, room);
+        let at = Align2::RIGHT_CENTER.anchor_size(pos2(middle - 14.0, second), clock.size()).min;
+        painter.galley(at, clock, paint(colours::TEXT));
+        let (text, colour) = match call.text() {
+            Some(call) => (call, colours::CALL),
+            None => (phase_text(state.phase, pace.paused), colours::QUIET),
         };
+        let text = one_line(ui, text, 16.0, room);
+        let at = Align2::LEFT_CENTER.anchor_size(pos2(middle + 14.0, second), text.size()).min;
+        painter.galley(at, text, paint(colour));
         let stroke = (1.0, paint(colours::RAISED));
         painter.vline(middle, egui::Rangef::new(second - 9.0, second + 9.0), stroke);
         ui.allocate_rect(rect, egui::Sense::hover());
@@ -101,14 +110,14 @@ fn show_team(ui: &egui::Ui, at: egui::Pos2, room: f32, team: Team, name: &str, e
     let way = if ends == Attacking::East { 1.0 } else { -1.0 };
     arrow(painter, plate.center(), way, paint(colours::ROBOT));
     let side_name = if team == Team::Home { "Home" } else { "Away" };
-    let label = one_line(ui, &format!("{side_name}: {name}"), room - 28.0);
+    let label = one_line(ui, &format!("{side_name}: {name}"), 18.0, room - 28.0);
     let text_at = align.anchor_size(at + vec2(side * 26.0, 0.0), label.size()).min;
     painter.galley(text_at, label, paint(colours::team_text(team)));
 }
 
 /// A text on one line, cut where the room ends.
-fn one_line(ui: &egui::Ui, text: &str, room: f32) -> std::sync::Arc<egui::Galley> {
-    let format = egui::TextFormat { font_id: font(18.0), color: Color32::PLACEHOLDER, ..default() };
+fn one_line(ui: &egui::Ui, text: &str, size: f32, room: f32) -> std::sync::Arc<egui::Galley> {
+    let format = egui::TextFormat { font_id: font(size), color: Color32::PLACEHOLDER, ..default() };
     let mut job = egui::text::LayoutJob::single_section(text.to_owned(), format);
     job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(20.0));
     ui.painter().layout_job(job)
@@ -130,14 +139,20 @@ fn show_trouble(
     let panel = egui::Panel::top("trouble")
         .resizable(false)
         .frame(panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 6)));
+    let room = (TROUBLE * area.0.height()).max(24.0);
     let closed = area.dock(contexts.ctx_mut()?, "trouble", panel, |ui| {
-        ui.horizontal(|ui| {
-            let close =
-                ui.button("Close").on_hover_text("Take this line away. The match plays on with what it had");
-            ui.add(egui::Label::new(egui::RichText::new(text).color(Color32::WHITE)).wrap());
-            close.clicked()
-        })
-        .inner
+        let lines = egui::ScrollArea::vertical().min_scrolled_height(room).max_height(room);
+        let shown = lines.show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                let close = ui
+                    .button("Close")
+                    .on_hover_text("Take this line away. The match plays on with what it had");
+                ui.add(egui::Label::new(egui::RichText::new(text).color(Color32::WHITE)).wrap());
+                close.clicked()
+            })
+            .inner
+        });
+        shown.inner
     });
     if closed {
         trouble.0 = None;

@@ -1,6 +1,5 @@
 //! The team communication's panel, across the window below the pitch, as the ChaosManager shows it: what modules said and heard by
-//! type, the queues in which their data wait, messages that arrived in part, and the referee box's view of the match. Key N opens
-//! and closes it.
+//! type, the queues in which their data wait, messages that arrived in part, and the referee box's view of the match.
 
 mod columns;
 mod fragments;
@@ -19,9 +18,12 @@ use crate::gamecontroller::BoxNews;
 use crate::ids::{RobotId, Team};
 use crate::referee::{MatchState, Orders};
 use crate::tcm::{DataType, Registry, Tcm, TcmClient};
+use crate::view::actions::Action;
 use crate::view::colours;
-use crate::view::layout::{FreeArea, PanelSystems};
-use crate::view::state::{Overlays, Screen, Selected};
+use crate::view::keys::Keyboard;
+use crate::view::layout::{Edge, FreeArea, PanelSystems, SizedPanel};
+use crate::view::settings::PanelSizes;
+use crate::view::state::{Overlay, Overlays, Screen, Selected};
 use tally::Tally;
 
 pub(super) fn plugin(app: &mut App) {
@@ -112,67 +114,81 @@ impl Heard<'_, '_> {
     }
 }
 
-/// Heights of the panel in points: at first, least and most.
-const HEIGHT: (f32, f32, f32) = (246.0, 150.0, 420.0);
+/// Heights of the panel in points: least and most.
+const HEIGHT: (f32, f32) = (150.0, 420.0);
+/// The least height of a page, in points; the panel scrolls where it is lower.
+const PAGE: f32 = 100.0;
 
 fn dock(
     mut contexts: EguiContexts,
     (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
     heard: Heard,
     mut view: ResMut<CommunicationView>,
+    (mut sizes, keyboard): (ResMut<PanelSizes>, Res<Keyboard>),
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
-    let panel = egui::Panel::bottom("communication")
-        .resizable(true)
-        .default_size(HEIGHT.0)
-        .size_range(HEIGHT.1..=HEIGHT.2)
-        .frame(egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)));
-    let closed = area.dock(ctx, "communication", panel, |ui| {
+    let panel = SizedPanel {
+        id: "communication",
+        edge: Edge::Bottom,
+        least: HEIGHT.0,
+        most: HEIGHT.1,
+        frame: egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)),
+    };
+    let closed = area.dock_sized(ctx, panel, &mut sizes.bypass_change_detection().communication, |ui| {
         super::panel::set_close(ui);
-        let closed = show_head(ui, &heard, &mut view);
-        ui.separator();
-        let names = |data_type: DataType| heard.name_of(data_type);
-        match view.page {
-            Page::Modules => modules::show(ui, &heard.tally(view.whose), &names),
-            Page::Fragments => {
-                let looked_at = heard.robots.iter().find(|(id, ..)| Some(**id) == heard.selected.0);
-                let assembly = looked_at.map(|(id, tcm, ..)| (*id, &tcm.assembly));
-                fragments::show(ui, assembly, &heard.clock, &names);
-            }
-            Page::Referee => {
-                referee::show(ui, heard.news.as_deref(), &heard.state, &heard.clock, &heard.orders());
-            }
-        }
-        closed
+        egui::ScrollArea::vertical()
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                let tip = keyboard.tip_that_says(
+                    "Close the team communication's panel",
+                    Action::Switch(Overlay::Communication),
+                );
+                let closed = super::panel::with_close_button(ui, &tip, |ui| show_head(ui, &heard, &mut view));
+                ui.separator();
+                let page = egui::vec2(ui.available_width(), ui.available_height().max(PAGE));
+                ui.allocate_ui(page, |ui| {
+                    egui::ScrollArea::horizontal()
+                        .auto_shrink(false)
+                        .show(ui, |ui| show_page(ui, view.page, view.whose, &heard));
+                });
+                closed
+            })
+            .inner
     });
-    if closed {
+    if closed == Some(true) {
         overlays.communication = false;
     }
     Ok(())
 }
 
-/// Shows the pages and whose counters are meant; whether the panel is to be closed.
-fn show_head(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) -> bool {
-    ui.horizontal(|ui| {
-        ui.label(RichText::new("Team communication").size(15.0).strong());
+fn show_page(ui: &mut egui::Ui, page: Page, whose: Whose, heard: &Heard) {
+    let names = |data_type: DataType| heard.name_of(data_type);
+    match page {
+        Page::Modules => modules::show(ui, &heard.tally(whose), &names),
+        Page::Fragments => {
+            let looked_at = heard.robots.iter().find(|(id, ..)| Some(**id) == heard.selected.0);
+            let assembly = looked_at.map(|(id, tcm, ..)| (*id, &tcm.assembly));
+            fragments::show(ui, assembly, &heard.clock, &names);
+        }
+        Page::Referee => {
+            referee::show(ui, heard.news.as_deref(), &heard.state, &heard.clock, &heard.orders());
+        }
+    }
+}
+
+/// Shows the pages and whose counters are meant.
+fn show_head(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {
+    ui.label(RichText::new("Team communication").size(15.0).strong());
+    ui.separator();
+    for (page, name, tip) in Page::ALL {
+        if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {
+            view.page = page;
+        }
+    }
+    if view.page == Page::Modules {
         ui.separator();
-        for (page, name, tip) in Page::ALL {
-            if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {
-                view.page = page;
-            }
-        }
-        if view.page == Page::Modules {
-            ui.separator();
-            show_whose(ui, heard, view);
-        }
-        let right = egui::Layout::right_to_left(egui::Align::Center);
-        ui.with_layout(right, |ui| {
-            let close = egui::Button::new("⏷").frame(false);
-            ui.add(close).on_hover_text("Close the team communication's panel (N)").clicked()
-        })
-        .inner
-    })
-    .inner
+        show_whose(ui, heard, view);
+    }
 }
 
 fn show_whose(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {

@@ -13,7 +13,7 @@ const TYPES: [Column; 12] = [
     words("type", 92.0, "The type of the data, as it was registered"),
     figures("sent", 50.0, "Messages sent"),
     figures("kB", 50.0, "Data of the messages sent, in kilobytes, once however many receive them"),
-    figures("datagrams", 76.0, "Datagrams sent: each fragment for each receiver anew"),
+    figures("datagrams", 76.0, "Datagrams sent: each fragment counts once for each receiver"),
     figures("received", 66.0, "Messages received"),
     figures("kB in", 50.0, "Data of the messages received, in kilobytes"),
     figures("queue full", 76.0, "Dropped before sending: the module's queue had no room"),

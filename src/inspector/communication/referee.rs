@@ -11,6 +11,7 @@ use crate::ids::{RobotId, Team};
 use crate::inspector::{figures as numbers, tints};
 use crate::referee::{MatchState, Orders};
 use crate::view::colours;
+use crate::view::labels::off_text;
 
 const MATCH: [Column; 3] = [
     words("", 96.0, ""),
@@ -146,14 +147,10 @@ fn spaced(name: &str) -> String {
 }
 
 fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchState) {
-    let off = state.removed.iter().find(|removal| removal.robot == robot);
-    let more = match (off, orders.place) {
-        (Some(removal), _) if !removal.seconds_left.is_finite() => "taken off".into(),
-        (Some(removal), _) if removal.seconds_left > 0.0 => {
-            format!("off for {} s", removal.seconds_left.ceil())
-        }
-        (Some(_), _) => "waits to return".into(),
-        (None, Some(place)) if orders.state == crate::referee::RobotState::Ready => {
+    let is_off = state.removed.iter().any(|removal| removal.robot == robot);
+    let more = match orders.place {
+        _ if is_off => off_text(state, robot),
+        Some(place) if orders.state == crate::referee::RobotState::Ready => {
             let [x, y] = numbers::coordinates(place.position);
             format!("to {x}, {y} m")
         }

@@ -4,7 +4,7 @@
 use bevy_egui::egui::{self, Align2, Pos2, Rect, RichText, Stroke, pos2, vec2};
 
 use super::belief_history::Span;
-use super::chart::{NAMES, TIMES, paint_times, show_spans};
+use super::chart::{LANE, NAMES, TIMES, paint_times, show_spans};
 use super::layout::Axes;
 use super::words::moment;
 use super::{Heard, RadioView};
@@ -32,14 +32,14 @@ pub fn show(
         ui.weak(format!("The strategy of {team} books no balls."));
         return;
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         show_spans(ui, view);
         ui.separator();
         show_key(ui, robots);
         ui.separator();
         show_figures(ui, &heard.record.bookings[team.index()]);
     });
-    let room = ui.available_size().max(vec2(200.0, 60.0));
+    let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
     let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
     let chart = Rect::from_min_max(rect.min + vec2(NAMES, 0.0), rect.max - vec2(4.0, TIMES));
     let axes = Axes {

@@ -18,6 +18,8 @@ use crate::view::colours;
 /// Width of the robots' names before the lanes, and height of the times below them, in points.
 pub const NAMES: f32 = 106.0;
 pub const TIMES: f32 = 18.0;
+/// The least height of a lane, in points.
+pub const LANE: f32 = 20.0;
 /// A message may have been sent so long before the time that is shown and arrive within it, s.
 const LONGEST_WAY: f32 = 4.0;
 /// The pointer means an arrow that is no farther away than this, in points.
@@ -29,7 +31,7 @@ const TEXT: f32 = 13.0;
 
 pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, view: &mut RadioView) {
     show_filters(ui, view);
-    let room = ui.available_size().max(vec2(200.0, 60.0));
+    let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
     let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
     let chart = Rect::from_min_max(rect.min + vec2(NAMES, 0.0), rect.max - vec2(4.0, TIMES));
     let lanes: Vec<RobotId> = robots.iter().map(|(robot, _)| *robot).collect();
@@ -57,7 +59,7 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, v
 
 /// The time that is shown, and the kinds of messages.
 fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         show_spans(ui, view);
         ui.separator();
         for kind in MessageKind::ALL {

@@ -14,37 +14,27 @@ const SLIDER: f32 = 90.0;
 /// The largest extra delay that the slider offers, s.
 const LONGEST_DELAY: f32 = 2.0;
 
-/// Shows the head; whether the panel is to be closed.
-pub fn show(ui: &mut egui::Ui, team: Team, heard: &Heard, view: &mut RadioView, desk: &mut Desk) -> bool {
-    ui.horizontal(|ui| {
-        let title = RichText::new(format!("Radio, {team}")).size(15.0).strong();
-        ui.label(title.color(tints::egui(colours::team_text(team))));
-        if heard.selected.as_ref() == &Selected(None) {
-            let other = team.opponent();
-            if ui.button(format!("Show {other}")).on_hover_text("Or select one of its robots").clicked() {
-                view.team = Some(other);
-            }
+pub fn show(ui: &mut egui::Ui, team: Team, heard: &Heard, view: &mut RadioView, desk: &mut Desk) {
+    let title = RichText::new(format!("Radio, {team}")).size(15.0).strong();
+    ui.label(title.color(tints::egui(colours::team_text(team))));
+    if heard.selected.as_ref() == &Selected(None) {
+        let other = team.opponent();
+        if ui.button(format!("Show {other}")).on_hover_text("Or select one of its robots").clicked() {
+            view.team = Some(other);
         }
-        ui.separator();
-        for (page, name, tip) in [
-            (Page::Messages, "Messages", "Who told whom what, and when"),
-            (Page::Bookings, "Bookings", "Whom each robot believed to have booked the ball"),
-            (Page::Robots, "Robots", "Counters of each robot, and what a person may do to it"),
-        ] {
-            if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {
-                view.page = page;
-            }
+    }
+    ui.separator();
+    for (page, name, tip) in [
+        (Page::Messages, "Messages", "Who told whom what, and when"),
+        (Page::Bookings, "Bookings", "Whom each robot believed to have booked the ball"),
+        (Page::Robots, "Robots", "Counters of each robot, and what a person may do to it"),
+    ] {
+        if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {
+            view.page = page;
         }
-        ui.separator();
-        show_weather(ui, heard, desk);
-        let right = egui::Layout::right_to_left(egui::Align::Center);
-        ui.with_layout(right, |ui| {
-            let close = egui::Button::new("⏷").frame(false);
-            ui.add(close).on_hover_text("Close the radio's panel (M)").clicked()
-        })
-        .inner
-    })
-    .inner
+    }
+    ui.separator();
+    show_weather(ui, heard, desk);
 }
 
 /// Extra loss, extra delay and the jam.
@@ -55,7 +45,7 @@ fn show_weather(ui: &mut egui::Ui, heard: &Heard, desk: &mut Desk) {
         Request::Air(Weather::ExtraLoss(share)) => Some(*share),
         _ => None,
     });
-    ui.label("Extra loss");
+    ui.add(egui::Label::new("Extra loss").extend());
     let mut percent = 100.0 * loss;
     let slider = egui::Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).fixed_decimals(0).suffix(" %");
     let tip = "Chance that a message is lost which the radio itself would have brought over";
@@ -66,7 +56,7 @@ fn show_weather(ui: &mut egui::Ui, heard: &Heard, desk: &mut Desk) {
         Request::Air(Weather::ExtraDelay(seconds)) => Some(*seconds),
         _ => None,
     });
-    ui.label("Extra delay");
+    ui.add(egui::Label::new("Extra delay").extend());
     let mut seconds = delay;
     let slider =
         egui::Slider::new(&mut seconds, 0.0..=LONGEST_DELAY).step_by(0.05).fixed_decimals(2).suffix(" s");

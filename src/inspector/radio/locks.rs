@@ -49,7 +49,7 @@ impl Hold {
 }
 
 impl LockHistory {
-    /// Begins anew if time has gone back: another match.
+    /// Forgets everything if time has gone back: another match.
     fn begin(&mut self, tick: u64) {
         if tick < self.last_tick {
             self.spans.clear();
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_long_over_is_forgotten_and_a_new_match_begins_anew() {
+    fn what_is_long_over_is_forgotten_and_another_match_begins_with_nothing() {
         let mut history = LockHistory::default();
         history.begin(10);
         history.note(10, home(2), LOCKED, None);

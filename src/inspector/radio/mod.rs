@@ -1,5 +1,5 @@
 //! The radio's panel, across the window below the pitch: what the robots of a team say to each other, how much of it arrives,
-//! and what a person may do to the radio and to the robots. Key M opens and closes it.
+//! and what a person may do to the radio and to the robots.
 
 mod belief_history;
 mod bookings;
@@ -30,8 +30,11 @@ use crate::record::Record;
 use crate::robot::{Condition, Robot};
 use crate::script::{Request, Requests};
 use crate::strategy::Strategies;
-use crate::view::layout::{FreeArea, PanelSystems};
-use crate::view::state::{Overlays, Pace, Screen, Selected};
+use crate::view::actions::Action;
+use crate::view::keys::Keyboard;
+use crate::view::layout::{Edge, FreeArea, PanelSystems, SizedPanel};
+use crate::view::settings::PanelSizes;
+use crate::view::state::{Overlay, Overlays, Pace, Screen, Selected};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<RadioView>().add_plugins((locks::plugin, belief_history::plugin)).add_systems(
@@ -131,40 +134,56 @@ impl Desk<'_> {
     }
 }
 
-/// Heights of the panel in points: at first, least and most.
-const HEIGHT: (f32, f32, f32) = (246.0, 190.0, 420.0);
+/// Heights of the panel in points: least and most.
+const HEIGHT: (f32, f32) = (190.0, 420.0);
+/// The width that its pages need, in points; they scroll in a narrower window.
+const WIDTH: f32 = 600.0;
 
 fn dock(
     mut contexts: EguiContexts,
     (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
     heard: Heard,
     (mut view, mut requests): (ResMut<RadioView>, ResMut<Requests>),
+    (mut sizes, keyboard): (ResMut<PanelSizes>, Res<Keyboard>),
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
     let team = heard.selected.0.map(|robot| robot.team).or(view.team).unwrap_or(Team::Home);
     view.team = Some(team);
     let robots = heard.team(team);
     let mut desk = Desk { requests: &mut requests, asked: Vec::new() };
-    let panel = egui::Panel::bottom("radio")
-        .resizable(true)
-        .default_size(HEIGHT.0)
-        .size_range(HEIGHT.1..=HEIGHT.2)
-        .frame(egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)));
-    let closed = area.dock(ctx, "radio", panel, |ui| {
+    let panel = SizedPanel {
+        id: "radio",
+        edge: Edge::Bottom,
+        least: HEIGHT.0,
+        most: HEIGHT.1,
+        frame: egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)),
+    };
+    let closed = area.dock_sized(ctx, panel, &mut sizes.bypass_change_detection().radio, |ui| {
         super::panel::set_close(ui);
-        let closed = head::show(ui, team, &heard, &mut view, &mut desk);
-        ui.separator();
-        match view.page {
-            Page::Messages => chart::show(ui, &robots, &heard, &mut view),
-            Page::Bookings => bookings::show(ui, team, &robots, &heard, &mut view),
-            Page::Robots => robots::show(ui, &robots, &heard, &mut desk),
-        }
-        closed
+        egui::ScrollArea::vertical()
+            .auto_shrink(false)
+            .show(ui, |ui| {
+                let tip = keyboard.tip_that_says("Close the radio's panel", Action::Switch(Overlay::Radio));
+                let closed = super::panel::with_close_button(ui, &tip, |ui| {
+                    head::show(ui, team, &heard, &mut view, &mut desk);
+                });
+                ui.separator();
+                egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+                    ui.set_min_width(WIDTH);
+                    match view.page {
+                        Page::Messages => chart::show(ui, &robots, &heard, &mut view),
+                        Page::Bookings => bookings::show(ui, team, &robots, &heard, &mut view),
+                        Page::Robots => robots::show(ui, &robots, &heard, &mut desk),
+                    }
+                });
+                closed
+            })
+            .inner
     });
     for request in desk.asked {
         requests.ask(request);
     }
-    if closed {
+    if closed == Some(true) {
         overlays.radio = false;
     }
     Ok(())

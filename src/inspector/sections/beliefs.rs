@@ -25,7 +25,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
         let told = booked(&booking.0, robot.id.number, robot.clock.tick.saturating_sub(1), robot.clock.dt);
         table::line(ui, "the ball is", told).on_hover_text(
             "Ball booking: whom this robot believes to have booked the ball, how far that one was from it, when it \
-             last heard so, and how often the ball was booked anew",
+             last heard so, and how often the ball was booked again",
         );
     }
     let reports: Vec<String> = (robot.of.picture.reports.iter())

@@ -7,6 +7,8 @@ use crate::ids::RobotId;
 use crate::inspector::subject::Looked;
 use crate::inspector::{figures, table, tints};
 use crate::script::Request;
+use crate::view::actions::Action;
+use crate::view::labels::off_text;
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
     let strategy = robot.strategy;
@@ -15,7 +17,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
         shirt(ui, robot.id);
         ui.label(RichText::new(role_name(robot.of.role.0)).size(18.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            close_button(ui, desk.open);
+            close_button(ui, desk);
             hand_over(ui, robot.id, robot.of.piloted, desk);
         });
     });
@@ -31,7 +33,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
         strategy.description
     ));
     if robot.of.off_pitch {
-        table::line(ui, "off the pitch", RichText::new(penalty(robot)).strong());
+        table::line(ui, "penalty", RichText::new(off_text(robot.state, robot.id)).strong());
     }
 }
 
@@ -46,20 +48,13 @@ fn shirt(ui: &mut egui::Ui, id: RobotId) {
     response.on_hover_text(id.to_string());
 }
 
-fn penalty(robot: &Looked) -> String {
-    let removal = robot.state.removed.iter().find(|removal| removal.robot == robot.id);
-    match removal.map(|removal| removal.seconds_left as f32) {
-        Some(left) if left > 0.0 => format!("for another {} of play", figures::seconds(left)),
-        _ => "until a place is free".into(),
-    }
-}
-
 pub(super) fn hand_over(ui: &mut egui::Ui, id: RobotId, piloted: bool, desk: &mut Desk) {
     let (words, tip) = if piloted {
-        ("Hand back", "Let the strategy drive it again (H)")
+        ("Hand back", "Let the strategy drive it again".to_owned())
     } else {
-        ("Take over", "Drive this robot yourself, with W A S D or the arrow keys (H)")
+        ("Take over", format!("Drive this robot yourself, with {}", desk.keyboard.driving_keys()))
     };
+    let tip = desk.keyboard.tip_that_says(&tip, Action::HandOver);
     if !ui.button(words).on_hover_text(tip).clicked() {
         return;
     }
@@ -72,4 +67,6 @@ pub(super) fn hand_over(ui: &mut egui::Ui, id: RobotId, piloted: bool, desk: &mu
         desk.requests.ask(Request::HandBack(other));
     }
     desk.requests.ask(Request::TakeOver(id));
+    // A person who takes a robot over in the inspector wants to go on seeing it.
+    desk.playing.inspector = true;
 }

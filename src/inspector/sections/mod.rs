@@ -15,7 +15,10 @@ use super::subject::Looked;
 use super::weights::Weights;
 use crate::game::TeamPlan;
 use crate::script::Requests;
+use crate::view::actions::Action;
+use crate::view::keys::Keyboard;
 use crate::view::levers::Levers;
+use crate::view::opened::Opened;
 use crate::view::state::Piloted;
 
 /// What the panel may ask for, and what it shows of that.
@@ -28,6 +31,9 @@ pub struct Desk<'a> {
     pub file: Option<&'a TeamPlan>,
     /// Whether the panel is open.
     pub open: &'a mut bool,
+    /// What is open while a person drives.
+    pub playing: &'a mut Opened,
+    pub keyboard: &'a Keyboard,
 }
 
 /// Draws who the robot is, which stays in sight.
@@ -46,10 +52,11 @@ pub fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
 }
 
 /// The button that closes the panel.
-pub fn close_button(ui: &mut egui::Ui, open: &mut bool) {
+pub fn close_button(ui: &mut egui::Ui, desk: &mut Desk) {
     let close = ui.add(egui::Button::new("⏵").frame(false));
-    if close.on_hover_text("Close the inspector (I)").clicked() {
-        *open = false;
+    let tip = desk.keyboard.tip_that_says("Close the inspector", Action::Inspector);
+    if close.on_hover_text(tip).clicked() {
+        *desk.open = false;
     }
 }
 

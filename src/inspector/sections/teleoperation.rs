@@ -7,7 +7,8 @@ use super::{Desk, identity, pad};
 use crate::handling::Grip;
 use crate::inspector::figures;
 use crate::inspector::subject::Looked;
-use crate::robot::{Drive, Kick, RobotKind};
+use crate::robot::{Drive as Legs, Kick, RobotKind};
+use crate::view::keys::{Deed, Drive, Keyboard};
 use crate::view::levers::Levers;
 
 /// Width of a lever, in points.
@@ -30,12 +31,12 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
             ui.add_space(6.0);
             ui.vertical(|ui| {
                 speeds(ui, kind, levers);
-                if matches!(kind.drive, Drive::Walker(_)) {
+                if matches!(kind.drive, Legs::Walker(_)) {
                     turn(ui, kind, levers);
                 }
                 head(ui, robot, levers);
                 if kind.chin.is_some() {
-                    hold(ui, robot, levers);
+                    hold(ui, robot, levers, desk.keyboard);
                 }
             });
         });
@@ -46,8 +47,8 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
 /// The pad. What has wheels turns where what has legs steps aside.
 fn walk(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
     match kind.drive {
-        Drive::Walker(_) => pad::show(ui, &mut levers.pull.walk, "left and right step aside"),
-        Drive::Differential(_) => {
+        Legs::Walker(_) => pad::show(ui, &mut levers.pull.walk, "left and right step aside"),
+        Legs::Differential(_) => {
             let mut way = Vec2::new(levers.pull.walk.x, levers.pull.turn);
             pad::show(ui, &mut way, "left and right turn");
             (levers.pull.walk.x, levers.pull.turn) = (way.x, way.y);
@@ -59,11 +60,11 @@ fn walk(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
 fn speeds(ui: &mut egui::Ui, kind: &RobotKind, levers: &Levers) {
     let Vec2 { x, y } = levers.pull.walk;
     let (ahead, second) = match kind.drive {
-        Drive::Walker(walker) => {
+        Legs::Walker(walker) => {
             let ahead = x * if x >= 0.0 { walker.ahead } else { walker.back };
             (ahead, format!("{} to the {}", figures::speed(y.abs() * walker.aside), side(y)))
         }
-        Drive::Differential(drive) => {
+        Legs::Differential(drive) => {
             let turn = levers.pull.turn;
             let rate = figures::fixed(turn.abs() * drive.turn_rate, 0);
             (x * drive.max_speed, format!("{rate}°/s to the {}", side(turn)))
@@ -130,7 +131,7 @@ fn head(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
     }
 }
 
-fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
+fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers, keyboard: &Keyboard) {
     let told = match robot.of.handling.grip {
         Grip::Open => "open",
         Grip::Lowering { .. } => "goes down",
@@ -138,7 +139,9 @@ fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
         Grip::Raising { .. } => "missed, goes up",
     };
     ui.horizontal(|ui| {
-        let tip = "The chin catches the ball when it is before the chest, and keeps it (C, held)";
+        let key = keyboard.key(Deed::Drive(Drive::Hold));
+        let tip =
+            format!("The chin catches the ball when it is before the chest, and keeps it ({key}, held)");
         ui.checkbox(&mut levers.pull.hold, "hold the ball").on_hover_text(tip);
         ui.weak(format!("the chin: {told}"));
     });
