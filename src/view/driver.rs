@@ -8,6 +8,7 @@ use bevy::prelude::*;
 use super::FrameSystems;
 use super::calls::Trouble;
 use super::dialogues::Open;
+use super::greeting::is_waiting;
 use super::state::Pace;
 use crate::clock::Clock;
 use crate::game::advance;
@@ -33,7 +34,7 @@ const FRAME_BUDGET: Duration = Duration::from_millis(25);
 const ROBOTS_BUDGET: Duration = Duration::from_millis(20);
 
 fn pass_time(world: &mut World) {
-    if world.resource::<Open>().question.is_some() || is_over(world) {
+    if world.resource::<Open>().question.is_some() || is_over(world) || is_waiting(world) {
         return;
     }
     let elapsed = world.resource::<Time<Real>>().delta_secs();

@@ -15,6 +15,7 @@ mod dialogues;
 mod display;
 pub mod driver;
 mod expectations;
+mod greeting;
 mod help;
 #[cfg(test)]
 mod interface_tests;
@@ -124,7 +125,14 @@ fn plugin(app: &mut App) {
     app.insert_resource(ClearColor(colours::FLOOR))
         .add_plugins((played, layout::plugin, style::plugin, camera::plugin, labels::plugin, reload::plugin))
         .add_plugins((actions::plugin, keys::plugin, selection::plugin, pilot_seat::plugin))
-        .add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin))
+        .add_plugins((
+            top_bar::plugin,
+            bottom_bar::plugin,
+            dialogues::plugin,
+            greeting::plugin,
+            help::plugin,
+            menu::plugin,
+        ))
         .add_plugins((scenario_box::plugin, opened::plugin, settings::plugin, window_size::plugin));
 }
 
@@ -142,6 +150,13 @@ fn played(app: &mut App) {
                 .chain()
                 .run_if(in_state(state::Screen::Match)),
         )
-        .add_plugins((session::plugin, driver::plugin, expectations::plugin, shown::plugin, calls::plugin))
+        .add_plugins((
+            session::plugin,
+            driver::plugin,
+            expectations::plugin,
+            shown::plugin,
+            calls::plugin,
+            greeting::waiting,
+        ))
         .add_plugins((pitch::plugin, robots::plugin, walkers::plugin, ball::plugin, rings::plugin));
 }
