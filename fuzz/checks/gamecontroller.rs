@@ -1,5 +1,7 @@
 //! What must hold for any bytes that come from the network as packets of a referee box or of a robot.
 
+use std::net::{Ipv4Addr, SocketAddr};
+
 use touchline::gamecontroller::control::{ControlPacket, PacketError, Penalty, Version};
 use touchline::gamecontroller::referee_box::RefereeBox;
 use touchline::gamecontroller::status::{STATUS_LEN, StatusPacket};
@@ -52,11 +54,11 @@ pub fn status(data: &[u8]) {
 /// would say had it heard nothing else.
 ///
 /// The data are the number of players, whether the teams are known, and packets: the time since the last in sixteenths of
-/// a second, how the packet is made, its length, its bytes. In two of eight ways it is the last packet with a byte changed.
+/// a second, how the packet is made and who of four sends it, its length, its bytes. In two of eight ways it is the last packet with a byte changed.
 pub fn referee_box(data: &[u8]) {
     let [players, known, rest @ ..] = data else { return };
     let teams = (known % 2 == 1).then_some([6, 9]);
-    let mut referee = RefereeBox::new(teams, *players);
+    let mut referee = RefereeBox::new(teams, [*players; 2]);
     let (mut rest, mut now, mut packet, mut heard) = (rest, 0u64, Vec::new(), 0);
     while let [wait, how, length, tail @ ..] = rest {
         let (bytes, tail) = tail.split_at(usize::from(*length).min(tail.len()));
@@ -72,9 +74,10 @@ pub fn referee_box(data: &[u8]) {
             _ => {}
         }
         heard += 1;
-        hear(&mut referee, &packet, now, *players);
+        let from = SocketAddr::from((Ipv4Addr::LOCALHOST, u16::from(how / 64)));
+        hear(&mut referee, (from, &packet), now, *players);
         let count = referee.heard();
-        let refused = [count.not_ours, count.version, count.length, count.teams, count.stale];
+        let refused = [count.not_ours, count.version, count.length, count.teams, count.sender, count.stale];
         assert_eq!(count.news + count.repeated + refused.iter().sum::<u64>(), 2 * heard);
     }
 }
@@ -87,19 +90,21 @@ fn begun(version: Version, bytes: &[u8]) -> Vec<u8> {
 }
 
 /// Hears a packet twice.
-fn hear(referee: &mut RefereeBox, packet: &[u8], now: u64, players: u8) {
+fn hear(referee: &mut RefereeBox, (from, packet): (SocketAddr, &[u8]), now: u64, players: u8) {
     let teams = referee.team_numbers();
-    let first = referee.hear(packet, now);
+    let first = referee.hear(from, packet, now);
     match &first {
         Ok(Some(view)) => {
             assert!(referee.team_numbers().is_some() && (teams.is_none() || teams == referee.team_numbers()));
-            let alone = RefereeBox::new(referee.team_numbers(), players).hear(packet, 0);
+            let alone = RefereeBox::new(referee.team_numbers(), [players; 2]).hear(from, packet, 0);
             assert_eq!(alone.as_ref(), Ok(&Some(view.clone())));
             for penalised in view.penalties.iter().flatten() {
                 assert!(penalised.player < players.min(20));
-                assert!(!matches!(penalised.penalty, Penalty::None | Penalty::Substitute));
+                assert!(penalised.penalty != Penalty::None);
             }
-            assert!(view.kicking.is_none_or(|side| side < 2));
+            assert!(view.missing.iter().flatten().all(|player| (players..20).contains(player)));
+            assert!(view.kicking.is_none_or(|side| side < 2) && view.left < 2);
+            assert!(referee.followed().is_some_and(|(box_at, _)| box_at == from) && !referee.is_silent(now));
         }
         Ok(None) => assert!(teams.is_some()),
         Err(reason) => {
@@ -108,6 +113,6 @@ fn hear(referee: &mut RefereeBox, packet: &[u8], now: u64, players: u8) {
             assert!(!referee.first_time(reason) && !reason.to_string().is_empty());
         }
     }
-    let again = referee.hear(packet, now);
+    let again = referee.hear(from, packet, now);
     assert_eq!(again, first.map(|_| None));
 }

@@ -5,6 +5,7 @@ mod ending;
 mod interrupt;
 mod options;
 mod play;
+mod referee_box;
 mod robot;
 mod run;
 mod whole_file;

@@ -47,6 +47,13 @@ pub(super) struct HostOptions {
     /// Let a referee box referee the match: the address that its packets are sent to, such as 127.0.0.1:3838.
     #[arg(long, value_name = "ADDRESS")]
     gamecontroller: Option<SocketAddr>,
+    /// The league's numbers of home and away, such as 6,9: the referee box of this match is followed, and no other, and the
+    /// match is announced with them. Without them, those of the match file; if it has none, the first box decides.
+    #[arg(long, value_name = "HOME,AWAY", value_parser = team_numbers)]
+    team_numbers: Option<[u8; 2]>,
+    /// Give up a match without a window if no referee box is heard within this time.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "gamecontroller")]
+    wait_for_box: Option<Duration>,
     /// Announce the match in the GameController's format to this address, such as 192.168.1.255:3838 or [::1]:3838.
     #[arg(long, value_name = "ADDRESS")]
     announce: Option<SocketAddr>,
@@ -80,6 +87,13 @@ impl SeedOption {
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse::<f32>().ok().filter(|seconds| (0.0..=86_400.0).contains(seconds));
     seconds.map(Duration::from_secs_f32).ok_or_else(|| "must be a number of seconds, from 0 to 86400".into())
+}
+
+/// Reads two numbers with a comma between.
+fn team_numbers(text: &str) -> Result<[u8; 2], String> {
+    let number = |text: &str| text.trim().parse::<u8>().ok();
+    let numbers = text.split_once(',').and_then(|(home, away)| Some([number(home)?, number(away)?]));
+    numbers.ok_or_else(|| "must be the numbers of home and away, 0 to 254, such as 6,9".into())
 }
 
 /// Reads the number of a version of the GameController's format.
@@ -152,6 +166,8 @@ impl HostOptions {
             announce: *announce,
             league_ports: self.league_ports,
             version: self.announce_version.unwrap_or_default(),
+            team_numbers: self.team_numbers,
+            wait_for_box: self.wait_for_box,
         })
     }
 }

@@ -10,6 +10,7 @@ use serde::Serialize;
 use super::ending::{CommandError, Ending, tell};
 use super::interrupt::Interrupt;
 use super::options::{HostOptions, MatchOptions, SeedOption};
+use super::referee_box::BoxReport;
 use crate::data::{AssetFolder, in_one_line};
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
@@ -59,6 +60,9 @@ struct Report {
     /// What became of the datagrams that crossed a network.
     #[serde(skip_serializing_if = "Option::is_none")]
     network: Option<Network>,
+    /// What was heard of the referee box that refereed it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    referee_box: Option<BoxReport>,
     /// Simulated seconds.
     seconds: f64,
     ticks: u64,
@@ -168,7 +172,7 @@ pub(super) fn play_headless(
     let mut game = Match::new(plan);
     wire::open(game.world_mut(), plan)?;
     await_robots(&mut game, patience, interrupt)?;
-    play_on(&mut game, plan, started, interrupt);
+    play_on(&mut game, plan, started, interrupt)?;
     wire::finish(game.world_mut());
     let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
     if json {
@@ -179,13 +183,19 @@ pub(super) fn play_headless(
     Ok(if report.interrupted { Ending::Interrupted } else { Ending::Done })
 }
 
-fn play_on(game: &mut Match, plan: &MatchPlan, started: Instant, interrupt: &Interrupt) {
+fn play_on(
+    game: &mut Match,
+    plan: &MatchPlan,
+    started: Instant,
+    interrupt: &Interrupt,
+) -> Result<(), CommandError> {
     let bar = progress(plan);
     while !game.is_over() && !interrupt.is_asked() {
         if wire::is_in_real_time(plan) {
             wait_until(started + Duration::from_secs_f64(game.clock().now()));
         }
         game.tick();
+        wire::check_patience(game.world())?;
         if game.clock().tick.is_multiple_of(REPORT_EVERY) {
             let [home, away] = game.state().score;
             bar.set_message(format!("{home}:{away}"));
@@ -193,6 +203,7 @@ fn play_on(game: &mut Match, plan: &MatchPlan, started: Instant, interrupt: &Int
         }
     }
     bar.finish_and_clear();
+    Ok(())
 }
 
 /// Waits for robots in other processes, and says so if it takes more than a moment.
@@ -253,6 +264,7 @@ impl Report {
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
             budgets: TeamBudget::of(game),
             network: Network::of(game),
+            referee_box: BoxReport::of(game),
             seconds: clock.now(),
             ticks: clock.tick,
             ticks_per_second: share(clock.tick as f64, wall_seconds),
@@ -286,6 +298,9 @@ impl Report {
         }
         if let Some(network) = &self.network {
             network.print(out)?;
+        }
+        if let Some(referee_box) = &self.referee_box {
+            referee_box.print(out)?;
         }
         let pace = share(self.ticks_per_second * self.seconds, self.ticks as f64);
         writeln!(

@@ -78,7 +78,7 @@ fn place_robots(
                 let mut roles: Vec<(u8, usize)> =
                     in_team.map(|robot| (robot.id.number, robot.role.0)).collect();
                 roles.sort_unstable();
-                kick_off_poses(strategies.of(team), &roles, kick_off == team)
+                kick_off_poses(strategies.of(team), &roles, kick_off == Some(team))
             })),
             _ => None,
         };
@@ -129,7 +129,7 @@ fn tell_robots(
             let in_team = robots.iter().filter(|(id, ..)| id.team == team);
             let mut roles: Vec<(u8, usize)> = in_team.map(|(id, role, _)| (id.number, role.0)).collect();
             roles.sort_unstable();
-            kick_off_poses(strategies.of(team), &roles, state.kick_off == team)
+            kick_off_poses(strategies.of(team), &roles, state.kicks_off(team))
         })
     });
     for (id, _, mut orders) in &mut robots {

@@ -19,7 +19,7 @@ use crate::script::Request;
 use crate::sense::Sensing;
 use crate::strategy::Strategy;
 use crate::tcm::{Directory, HOST, TcmSettings};
-use crate::wire::WirePlan;
+use crate::wire::{WirePlan, team_numbers_fault};
 
 /// A match as it is written in `assets/matches/*.ron`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -48,6 +48,9 @@ pub struct TeamFile {
     pub strategy: String,
     pub robot: String,
     pub sensing: String,
+    /// The league's number of the team, 0 to 254. Without numbers the first referee box that is heard decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub team_number: Option<u8>,
 }
 
 /// What a person changes of a match file.
@@ -145,7 +148,13 @@ impl MatchPlan {
         let teams =
             [TeamPlan::read(assets, &file.home, &pitch)?, TeamPlan::read(assets, &file.away, &pitch)?];
         let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
-        let wires = WirePlan::clone(&choice.wires);
+        let mut wires = WirePlan::clone(&choice.wires);
+        if wires.team_numbers.is_none() {
+            wires.team_numbers = team_numbers(&source, &file)?;
+        }
+        if let Some((option, message)) = wires.fault() {
+            return Err(DataError::new(option, message));
+        }
         let plan = MatchPlan {
             name: file.name,
             pitch,
@@ -225,6 +234,23 @@ impl TeamPlan {
             kind: Arc::new(checked(&assets.file("robots", &file.robot), RobotKind::fault)?),
             sensing: Arc::new(checked(&assets.file("sensing", &file.sensing), Sensing::fault)?),
         })
+    }
+}
+
+/// The league's numbers of home and away, if the match file gives them.
+fn team_numbers(source: &Source, file: &MatchFile) -> Result<Option<[u8; 2]>, DataError> {
+    let fault =
+        |side: &str, message: String| source.error_at(&Field::root().key(side).key("team_number"), message);
+    match [file.home.team_number, file.away.team_number] {
+        [None, None] => Ok(None),
+        [Some(home), Some(away)] => match team_numbers_fault([home, away]) {
+            Some(message) => Err(fault("away", message)),
+            None => Ok(Some([home, away])),
+        },
+        [home, _] => {
+            let (with, without) = if home.is_some() { ("home", "away") } else { ("away", "home") };
+            Err(fault(with, format!("give {without} a team_number, too")))
+        }
     }
 }
 

@@ -135,10 +135,14 @@ fn whole_seconds(seconds: f64) -> i16 {
 
 #[cfg(test)]
 mod tests {
+    use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+
     use proptest::prelude::*;
 
     use super::super::referee_box::{Penalised, RefereeBox, View};
     use super::*;
+
+    const BOX: SocketAddr = SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 4000);
 
     fn standing() -> Standing {
         Standing {
@@ -191,7 +195,7 @@ mod tests {
 
     #[test]
     fn a_referee_box_that_announces_our_match_is_followed_as_one() {
-        let mut referee = RefereeBox::new(Some([70, 71]), 4);
+        let mut referee = RefereeBox::new(Some([70, 71]), [4; 2]);
         let penalised = Penalised { player: 3, penalty: Penalty::Pushing, seconds_left: 30 };
         let expected = View {
             state: State::Playing,
@@ -199,13 +203,15 @@ mod tests {
             set_play: SetPlay::None,
             stopped: false,
             first_half: false,
+            left: 0,
             kicking: Some(1),
             score: [2, 1],
             seconds_left: 60,
             secondary_time: 0,
             penalties: [vec![], vec![penalised]],
+            missing: [vec![], vec![]],
         };
-        assert_eq!(referee.hear(&standing().packet().write(), 0), Ok(Some(expected)));
+        assert_eq!(referee.hear(BOX, &standing().packet().write(), 0), Ok(Some(expected)));
     }
 
     #[test]

@@ -3,6 +3,8 @@
 //! The leagues, and the years of one, number set plays and penalties differently. A number without a known meaning is kept as `Other`, so
 //! that nothing is lost between reading and writing.
 
+use std::fmt;
+
 use binrw::binrw;
 
 /// The version of a control packet, which is also the league that speaks it.
@@ -91,6 +93,21 @@ macro_rules! coded {
                     $name::Other(number) => Some(number),
                     _ => None,
                 }
+            }
+        }
+
+        /// In words: `LocalGameStuck` as `local game stuck`, an unknown number as `code 9`.
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let name = match self {
+                    $($name::$variant => stringify!($variant),)+
+                    $name::Other(number) => return write!(f, "code {number}"),
+                };
+                for (place, letter) in name.char_indices() {
+                    let space = if place > 0 && letter.is_uppercase() { " " } else { "" };
+                    write!(f, "{space}{}", letter.to_ascii_lowercase())?;
+                }
+                Ok(())
             }
         }
     };
@@ -289,6 +306,15 @@ mod tests {
         assert_eq!(Penalty::read(Penalty::Cautioned.write(Version::V19), Version::V19), Penalty::Pushing);
         assert_eq!(State::read(State::Standby.write(Version::V19), Version::V19), State::Initial);
         assert_eq!(State::read(5, Version::V19), State::Other(5));
+    }
+
+    #[test]
+    fn meanings_have_words_and_unknown_ones_their_number() {
+        assert_eq!(Penalty::LocalGameStuck.to_string(), "local game stuck");
+        assert_eq!(
+            (State::Playing.to_string(), State::Other(7).to_string()),
+            ("playing".into(), "code 7".into())
+        );
     }
 
     #[test]

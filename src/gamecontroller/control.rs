@@ -22,8 +22,8 @@ pub const PLAYER_SLOTS: usize = 20;
 
 /// The first bytes of every control packet.
 const MAGIC: [u8; 4] = *b"RGme";
-/// What stands for neither team.
-const NO_TEAM: u8 = 255;
+/// The number that stands for neither team.
+pub const NO_TEAM: u8 = 255;
 
 /// A control packet of any version.
 #[binrw]

@@ -16,6 +16,8 @@ use crate::ids::{RobotId, Team};
 pub enum PlacementReason {
     KickOff,
     NoProgress,
+    /// For a set play that is not a kick-off.
+    SetPlay,
     /// The ball was out, by the team that touched it last, if that is known.
     ThrowIn {
         against: Option<Team>,
@@ -75,7 +77,8 @@ pub enum Decision {
     },
     /// All robots on the field are put on their kick-off positions by hand, as people did in 2001.
     RobotsPlaced {
-        kick_off: Team,
+        /// Nobody at a dropped ball.
+        kick_off: Option<Team>,
     },
     /// One robot is put somewhere by hand, at rest: before it walks to its place, or since it stood wrongly for a kick-off.
     RobotPlaced {
@@ -120,15 +123,19 @@ impl fmt::Display for Decision {
             Decision::BallPlaced { at, reason: PlacementReason::NoProgress } => {
                 write!(f, "No progress: ball to {}", Spot(*at))
             }
+            Decision::BallPlaced { at, reason: PlacementReason::SetPlay } => {
+                write!(f, "Set play: ball to {}", Spot(*at))
+            }
             Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: Some(team) } } => {
                 write!(f, "Out by {team}: ball to {}", Side(*at))
             }
             Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: None } } => {
                 write!(f, "Out: ball to {}", Side(*at))
             }
-            Decision::RobotsPlaced { kick_off } => {
+            Decision::RobotsPlaced { kick_off: Some(kick_off) } => {
                 write!(f, "Kick-off for {kick_off}: robots to their places")
             }
+            Decision::RobotsPlaced { kick_off: None } => f.write_str("Dropped ball: robots to their places"),
             Decision::RobotPlaced { robot, .. } => write!(f, "{} is put on its place", Shirt(*robot)),
             Decision::RobotRemoved { robot, reason } => {
                 let reason = match reason {
@@ -250,7 +257,11 @@ mod tests {
                 Decision::BallPlaced { at: Vec2::ZERO, reason: PlacementReason::KickOff },
                 "Kick-off: ball to the centre spot",
             ),
-            (Decision::RobotsPlaced { kick_off: Team::Away }, "Kick-off for away: robots to their places"),
+            (
+                Decision::RobotsPlaced { kick_off: Some(Team::Away) },
+                "Kick-off for away: robots to their places",
+            ),
+            (Decision::RobotsPlaced { kick_off: None }, "Dropped ball: robots to their places"),
             (off(RemovalReason::SecondDefender), "Away 2 must leave: second defender"),
             (Decision::RobotReturned { robot, at: Pose::default() }, "Away 2 returns"),
             (Decision::PhaseChanged(Phase::Set), "Set: robots stand still"),

@@ -3,6 +3,7 @@
 
 mod decision;
 mod orders;
+mod restraints;
 mod rulebook;
 mod rules;
 mod state;
@@ -14,10 +15,11 @@ use bevy::prelude::*;
 
 pub use decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
 pub use orders::{Orders, RobotState};
+pub use restraints::Restraints;
 pub use rulebook::{
     BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,
 };
-pub use rules::{Laws, Observation, RULES, Rule, follow, referee};
+pub use rules::{Laws, Observation, RULES, Rule, Word, follow, referee};
 pub use state::{MatchState, Phase, Removal};
 
 use crate::clock::Clock;
@@ -66,12 +68,15 @@ pub(crate) fn judge(
     }
     if state.refereed {
         let (laws, scene, dt) = (ground.laws(), ground.scene(), f64::from(clock.dt));
-        let view = news.as_ref().map(|news| news.view.as_ref());
-        match view {
+        match &news {
             None => referee(&laws, &scene.observation(), dt, &mut state, &mut calls.0),
-            Some(Some(view)) => follow(view, &laws, &scene.observation(), dt, &mut state, &mut calls.0),
-            // The box has not spoken yet.
-            Some(None) => {}
+            // Nothing is decided before the box has spoken.
+            Some(news) => {
+                if let Some(view) = &news.view {
+                    let word = Word { view, silence: news.silence(&clock), is_lost: news.is_lost(&clock) };
+                    follow(&word, &laws, &scene.observation(), dt, &mut state, &mut calls.0);
+                }
+            }
         }
     }
     whistles.note(clock.tick, &calls.0);

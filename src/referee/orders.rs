@@ -21,7 +21,7 @@ pub enum RobotState {
     /// It stands.
     Set,
     Playing,
-    /// It has been taken off and stands outside.
+    /// It has been taken off and stands outside, or stands where it is until its penalty is over.
     Penalised,
     Finished,
 }
@@ -39,13 +39,15 @@ impl Orders {
     pub fn of(robot: RobotId, state: &MatchState, book: &RuleBook, place: Option<Pose>) -> Orders {
         let told = match state.phase {
             Phase::Finished => RobotState::Finished,
-            _ if state.is_removed(robot) => RobotState::Penalised,
+            _ if state.is_removed(robot) || state.restraints.is_frozen(robot) => RobotState::Penalised,
             Phase::Initial => RobotState::Initial,
+            Phase::Ready | Phase::Playing if state.restraints.holds(robot) => RobotState::Set,
             Phase::Ready => RobotState::Ready,
             Phase::Set => RobotState::Set,
             Phase::Playing => RobotState::Playing,
         };
-        Orders { state: told, place: place.filter(|_| book.kick_off == KickOffStyle::Walked) }
+        let walks = book.kick_off == KickOffStyle::Walked && !state.restraints.carried;
+        Orders { state: told, place: place.filter(|_| walks) }
     }
 
     /// Whether the robot may move by itself.
@@ -75,7 +77,7 @@ impl fmt::Display for RobotState {
 mod tests {
     use super::*;
     use crate::ids::Team;
-    use crate::referee::RemovalReason;
+    use crate::referee::{RemovalReason, Restraints};
 
     #[test]
     fn robots_walk_in_ready_only_where_nobody_carries_them() {
@@ -90,6 +92,27 @@ mod tests {
         state.remove(robot, 30.0, RemovalReason::Pushing);
         let penalised = Orders::of(robot, &state, &walked, place);
         assert_eq!((penalised.state, penalised.may_move()), (RobotState::Penalised, false));
+    }
+
+    #[test]
+    fn robots_that_are_restrained_stand_in_ready_and_in_play() {
+        let (robot, other) = (RobotId::new(Team::Home, 1), RobotId::new(Team::Home, 2));
+        let book = RuleBook { kick_off: KickOffStyle::Walked, ..RuleBook::default() };
+        let told = |restraints: Restraints, phase| {
+            let state = MatchState { phase, restraints, ..MatchState::new(Team::Home, &book) };
+            [robot, other].map(|robot| Orders::of(robot, &state, &book, Some(Pose::default())))
+        };
+        let (set, plays) = (RobotState::Set, RobotState::Playing);
+        let stopped = Restraints { stopped: true, ..Restraints::default() };
+        assert_eq!(told(stopped.clone(), Phase::Playing).map(|orders| orders.state), [set; 2]);
+        assert_eq!(told(stopped.clone(), Phase::Ready).map(|orders| orders.state), [set; 2]);
+        assert_eq!(told(stopped, Phase::Initial)[0].state, RobotState::Initial);
+        let back = Restraints { held_back: vec![robot], ..Restraints::default() };
+        assert_eq!(told(back, Phase::Playing).map(|orders| orders.state), [set, plays]);
+        let frozen = Restraints { frozen: vec![other], ..Restraints::default() };
+        assert_eq!(told(frozen, Phase::Playing).map(|orders| orders.state), [plays, RobotState::Penalised]);
+        let carried = Restraints { carried: true, ..Restraints::default() };
+        assert!(told(carried, Phase::Ready).iter().all(|orders| !orders.may_move()));
     }
 
     #[test]

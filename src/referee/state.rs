@@ -8,7 +8,9 @@ use std::fmt;
 use bevy::prelude::{Resource, Vec2};
 
 use super::decision::RemovalReason;
+use super::restraints::Restraints;
 use super::rulebook::RuleBook;
+use super::rules::Following;
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
 
@@ -56,10 +58,12 @@ pub struct MatchState {
     pub half: u8,
     /// Goals, by [`Team::index`].
     pub score: [u32; 2],
-    /// Seconds of playing time left in this half.
+    /// Seconds of playing time left in this half; below 0 where a referee box lets it run over.
     pub time_left: f64,
     /// Who kicks off next, or kicked off last while the ball is in play.
     pub kick_off: Team,
+    /// Neither team kicks off: both may go for the ball at once.
+    pub dropped_ball: bool,
     /// Where home attacks; turned at half time.
     pub home_attacks: Attacking,
     /// The robot that touched the ball last since the kick-off; none while nobody can tell, since robots of both teams
@@ -69,7 +73,11 @@ pub struct MatchState {
     pub removed: Vec<Removal>,
     /// Whether the rules hold; without them the ball stays in play whatever happens.
     pub refereed: bool,
+    /// What a referee box forbids beyond the phase.
+    pub restraints: Restraints,
 
+    /// What is remembered of a referee box that is followed.
+    pub(super) following: Following,
     /// Who kicked off the first half.
     pub(super) opened: Team,
     /// Seconds spent in `Ready` or `Set`.
@@ -163,10 +171,13 @@ impl MatchState {
             score: [0, 0],
             time_left: book.half_seconds(),
             kick_off,
+            dropped_ball: false,
             home_attacks: Attacking::East,
             last_touch: None,
             removed: Vec::new(),
             refereed: true,
+            restraints: Restraints::default(),
+            following: Following::default(),
             opened: kick_off,
             waited: 0.0,
             played: 0.0,
@@ -210,6 +221,11 @@ impl MatchState {
     /// Seconds that robots have yet to come to their places for a kick-off, while they have any.
     pub fn ready_left(&self, book: &RuleBook) -> Option<f64> {
         (self.phase == Phase::Ready).then(|| (f64::from(book.ready_seconds) - self.waited).max(0.0))
+    }
+
+    /// Whether a team kicks off next, or kicked off last.
+    pub fn kicks_off(&self, team: Team) -> bool {
+        self.kick_off == team && !self.dropped_ball
     }
 
     /// Whether a robot is off the field.

@@ -114,7 +114,8 @@ fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
 
 fn team(assets: &AssetFolder, file: &SideFile, pitch: &Pitch) -> Result<TeamPlan, DataError> {
     let SideFile { strategy, robot, sensing, .. } = file;
-    let names = TeamFile { strategy: strategy.clone(), robot: robot.clone(), sensing: sensing.clone() };
+    let (strategy, robot, sensing) = (strategy.clone(), robot.clone(), sensing.clone());
+    let names = TeamFile { strategy, robot, sensing, team_number: None };
     TeamPlan::read(assets, &names, pitch)
 }
 

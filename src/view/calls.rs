@@ -76,7 +76,9 @@ fn weight(decision: &Decision) -> u8 {
         Decision::RobotRemoved { .. } | Decision::RobotReturned { .. } | Decision::Untouched { .. } => 2,
         Decision::BallPlaced { reason: PlacementReason::NoProgress, .. } => 2,
         Decision::RobotsPlaced { .. } => 1,
-        Decision::BallPlaced { reason: PlacementReason::ThrowIn { .. }, .. } => 1,
+        Decision::BallPlaced {
+            reason: PlacementReason::ThrowIn { .. } | PlacementReason::SetPlay, ..
+        } => 1,
         Decision::BallPlaced { reason: PlacementReason::KickOff, .. }
         | Decision::PhaseChanged(_)
         | Decision::RobotPlaced { .. } => 0,
@@ -130,7 +132,7 @@ mod tests {
         let mut call = Call::default();
         for decision in [
             Decision::Goal { by: Team::Home, score: [1, 0] },
-            Decision::RobotsPlaced { kick_off: Team::Away },
+            Decision::RobotsPlaced { kick_off: Some(Team::Away) },
             Decision::PhaseChanged(Phase::Ready),
         ] {
             call.say(decision.to_string(), weight(&decision));

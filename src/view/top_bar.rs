@@ -30,17 +30,20 @@ const TROUBLE: f32 = 0.25;
 /// From the middle to where the teams' names begin.
 const SCORE_HALF: f32 = 52.0;
 
-/// Minutes and seconds of a time in seconds, rounded up, so that 0:00 means over.
+/// Minutes and seconds of a time in seconds, rounded up, so that 0:00 means over. A clock that has run over is negative.
 pub fn clock_text(seconds: f64) -> String {
-    let whole = seconds.max(0.0).ceil() as u64;
-    format!("{:02}:{:02}", whole / 60, whole % 60)
+    let whole = seconds.ceil();
+    let sign = if whole < 0.0 { "−" } else { "" };
+    let whole = whole.abs() as u64;
+    format!("{sign}{:02}:{:02}", whole / 60, whole % 60)
 }
 
 /// The state of play in words.
-fn phase_text(phase: Phase, paused: bool) -> &'static str {
-    match phase {
+fn phase_text(state: &MatchState, paused: bool) -> &'static str {
+    match state.phase {
         Phase::Finished => "Full time",
         _ if paused => "Paused",
+        _ if state.restraints.stopped => "Stopped: robots stand still",
         Phase::Initial => "Before the kick-off",
         Phase::Ready => "Ready: robots take their places",
         Phase::Set => "Set: robots stand still",
@@ -88,7 +91,7 @@ fn show_top_bar(
         painter.galley(at, clock, paint(colours::TEXT));
         let (text, colour) = match call.text() {
             Some(call) => (call, colours::CALL),
-            None => (phase_text(state.phase, pace.paused), colours::QUIET),
+            None => (phase_text(&state, pace.paused), colours::QUIET),
         };
         let text = one_line(ui, text, 16.0, room);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(middle + 14.0, second), text.size()).min;
@@ -163,20 +166,30 @@ fn show_trouble(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::referee::RuleBook;
 
     #[test]
-    fn the_clock_counts_down_to_zero_and_no_further() {
+    fn the_clock_counts_down_and_is_negative_when_it_has_run_over() {
         assert_eq!(clock_text(600.0), "10:00");
         assert_eq!(clock_text(59.2), "01:00");
         assert_eq!(clock_text(59.0), "00:59");
         assert_eq!(clock_text(0.001), "00:01");
         assert_eq!(clock_text(0.0), "00:00");
-        assert_eq!(clock_text(-1.0), "00:00");
+        assert_eq!(clock_text(-0.5), "00:00");
+        assert_eq!(clock_text(-61.0), "−01:01");
     }
 
     #[test]
-    fn a_finished_match_is_not_paused() {
-        assert_eq!(phase_text(Phase::Finished, true), "Full time");
-        assert_eq!(phase_text(Phase::Playing, true), "Paused");
+    fn a_finished_match_is_not_paused_and_a_stopped_one_says_so() {
+        let state = |phase| {
+            let mut state = MatchState::new(Team::Home, &RuleBook::default());
+            state.phase = phase;
+            state
+        };
+        assert_eq!(phase_text(&state(Phase::Finished), true), "Full time");
+        assert_eq!(phase_text(&state(Phase::Playing), true), "Paused");
+        let mut stopped = state(Phase::Playing);
+        stopped.restraints.stopped = true;
+        assert_eq!(phase_text(&stopped, false), "Stopped: robots stand still");
     }
 }

@@ -263,11 +263,13 @@ mod tests {
             set_play: SetPlay::CornerKick,
             stopped: true,
             first_half: true,
+            left: 0,
             kicking: None,
             score: [3, 2],
             seconds_left: -4,
             secondary_time: 27,
             penalties: [vec![penalised], vec![]],
+            missing: [vec![], vec![]],
         };
         let removed = [
             off(HOME_1, RemovalReason::RefereeBox, f64::INFINITY),

@@ -19,13 +19,12 @@ use crate::tcm::udp::{UdpConn, UdpError};
 
 /// How often a match is announced, per second: as often as referee boxes speak.
 const HZ: f32 = 2.0;
-/// The numbers that the teams have in the league's format, home first.
-pub(super) const TEAM_NUMBERS: [u8; 2] = [1, 2];
-
 pub(super) struct Announcer {
     conn: UdpConn,
     to: SocketAddr,
     version: Version,
+    /// The league's numbers of home and away.
+    team_numbers: [u8; 2],
     packet_number: u8,
     /// Whether the last packet was about the first half.
     first_half: bool,
@@ -38,11 +37,12 @@ pub(super) struct Announcer {
 }
 
 impl Announcer {
-    pub fn open(to: SocketAddr, version: Version) -> Result<Announcer, UdpError> {
+    pub fn open(to: SocketAddr, version: Version, team_numbers: [u8; 2]) -> Result<Announcer, UdpError> {
         Ok(Announcer {
             conn: UdpConn::speaker(to)?,
             to,
             version,
+            team_numbers,
             packet_number: 0,
             first_half: true,
             waited: None,
@@ -78,6 +78,8 @@ impl Announcer {
 
     pub fn announce(&mut self, world: &mut World) {
         let is_half_time = self.is_half_time(world);
+        let followed = world.get_resource::<BoxNews>().and_then(|news| news.team_numbers);
+        self.team_numbers = followed.unwrap_or(self.team_numbers);
         let standing = standing(world);
         if is_half_time {
             half_time(&standing).into_iter().for_each(|standing| self.send(standing));
@@ -87,10 +89,10 @@ impl Announcer {
     }
 
     fn send(&mut self, standing: Standing) {
-        let (version, packet_number) = (self.version, self.packet_number);
+        let (version, packet_number, team_numbers) = (self.version, self.packet_number, self.team_numbers);
         self.first_half = standing.first_half;
         self.packet_number = packet_number.wrapping_add(1);
-        let standing = Standing { version, packet_number, team_numbers: TEAM_NUMBERS, ..standing };
+        let standing = Standing { version, packet_number, team_numbers, ..standing };
         // Whether anybody listens there is not known.
         if let Err(error) = self.conn.send(self.to, &standing.packet().write()) {
             let trouble = format!("the match cannot be announced: {error}");

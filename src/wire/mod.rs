@@ -4,6 +4,7 @@
 
 mod announced;
 mod announcer;
+mod box_log;
 mod carrier;
 mod commands;
 mod greeting;
@@ -13,6 +14,7 @@ mod protocol;
 mod referee_box;
 mod remote;
 mod robot;
+mod robot_status;
 
 use std::net::{IpAddr, SocketAddr};
 use std::time::Duration;
@@ -26,14 +28,15 @@ pub use protocol::{Command, Sensors};
 pub use remote::RemoteFigures;
 pub use robot::{RobotEnd, RobotProcess, RobotReport};
 
+use crate::clock::Clock;
 use crate::data::DataError;
 use crate::game::MatchPlan;
-use crate::gamecontroller::control::Version;
+use crate::gamecontroller::control::{NO_TEAM, Version};
 use crate::ids::RobotId;
 use crate::tcm::external_message::Entity as Party;
 use crate::tcm::udp::UdpError;
 use crate::tcm::{Addresses, MessageBudgets, party};
-use announcer::{Announcer, TEAM_NUMBERS};
+use announcer::Announcer;
 use league::LeaguePorts;
 use referee_box::BoxSocket;
 use remote::RemoteRobots;
@@ -59,6 +62,37 @@ pub struct WirePlan {
     pub league_ports: Option<IpAddr>,
     /// The version of what is announced and of the league's limits.
     pub version: Version,
+    /// The league's numbers of home and away, if they are known.
+    pub team_numbers: Option<[u8; 2]>,
+    /// How long a match waits for its referee box before it is given up.
+    pub wait_for_box: Option<Duration>,
+}
+
+/// The league's numbers of home and away where nothing gives any.
+const TEAM_NUMBERS: [u8; 2] = [1, 2];
+
+impl WirePlan {
+    /// What is wrong with the plan, as the option and a reason.
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        if let Some(message) = self.team_numbers.and_then(team_numbers_fault) {
+            return Some(("--team-numbers", message));
+        }
+        let (listen, tell) = self.gamecontroller.zip(self.announce)?;
+        let is_here = tell.ip().is_loopback() || tell.ip().is_unspecified();
+        let itself = listen.ip() == tell.ip() || (listen.ip().is_unspecified() && is_here);
+        (listen.port() == tell.port() && itself).then(|| {
+            let message = format!("{tell} is where --gamecontroller listens: the match would follow itself");
+            ("--announce", message)
+        })
+    }
+}
+
+/// What is wrong with the numbers of home and away.
+pub fn team_numbers_fault([home, away]: [u8; 2]) -> Option<String> {
+    if home == away {
+        return Some(format!("both teams have the number {home}"));
+    }
+    [home, away].contains(&NO_TEAM).then(|| format!("{NO_TEAM} is no team: it stands for neither"))
 }
 
 /// How long a match without a window waits for robots in other processes before it begins, and a robot for word of its
@@ -72,6 +106,8 @@ pub enum WireError {
     Udp(#[from] UdpError),
     #[error("{0} has no address: add it to the addresses")]
     NoAddress(Party),
+    #[error("no referee box was heard at {address} within {} s", patience.as_secs_f32())]
+    NoBox { address: SocketAddr, patience: Duration },
     #[error("{robot} has not answered at {address} for {} s: start it with `{}`", patience.as_secs_f32(), start(*robot))]
     Silent { robot: RobotId, address: SocketAddr, patience: Duration },
     #[error("no match has greeted {robot} at {address} for {} s: start it with `touchline run --remote {}:{}`",
@@ -109,21 +145,22 @@ pub fn open(world: &mut World, plan: &MatchPlan) -> Result<(), WireError> {
     let directory = plan.directory();
     let wanted = &plan.wires;
     let mut wires = Wires::default();
+    let numbers = wanted.team_numbers.unwrap_or(TEAM_NUMBERS);
     let local = || plan.robots().filter(|robot| !wanted.remote.contains(robot));
     let carrier = wanted.udp.then(|| UdpCarrier::open(&directory, local())).transpose()?;
     if let Some(address) = wanted.gamecontroller {
-        let players = plan.teams.iter().map(|team| team.strategy.players.len()).max().unwrap_or(0);
-        wires.referee_box = Some(BoxSocket::open(address, players as u8)?);
+        let players = plan.teams.each_ref().map(|team| team.strategy.players.len() as u8);
+        wires.referee_box = Some(BoxSocket::open(address, players, wanted)?);
         world.insert_resource(crate::gamecontroller::BoxNews::default());
     }
     if let Some(address) = wanted.announce {
-        wires.announcer = Some(Announcer::open(address, wanted.version)?);
+        wires.announcer = Some(Announcer::open(address, wanted.version, numbers)?);
     }
     if !wanted.remote.is_empty() {
         wires.remote = Some(RemoteRobots::open(&directory, &wanted.remote, plan)?);
         remote::hand_over(world, &wanted.remote);
     }
-    let ports = wanted.league_ports.map(|host| LeaguePorts::open(host, TEAM_NUMBERS)).transpose()?;
+    let ports = wanted.league_ports.map(|host| LeaguePorts::open(host, numbers)).transpose()?;
     if wanted.announce.is_some() || ports.is_some() {
         let version = wanted.version;
         let budgets = MessageBudgets::counting(version.message_budget(), version.extra_time_budget());
@@ -215,9 +252,23 @@ pub fn announce_in_real_time(world: &mut World, elapsed: f32) -> Option<String> 
         .flatten()
 }
 
-/// Tells remote robots that the match is over, and counts the datagrams that have arrived since its last tick.
+/// Whether the match may go on without a referee box that it waits for.
+///
+/// # Errors
+/// If it has waited long enough.
+pub fn check_patience(world: &World) -> Result<(), WireError> {
+    let wires = world.get_resource::<Wires>();
+    let clock = world.resource::<Clock>();
+    wires.and_then(|wires| wires.referee_box.as_ref()).map_or(Ok(()), |socket| socket.check_patience(clock))
+}
+
+/// Tells remote robots that the match is over, says what was ignored of a referee box, and counts the datagrams that have
+/// arrived since its last tick.
 pub fn finish(world: &mut World) {
     with_wires(world, |world, wires| {
+        if let Some(referee_box) = &wires.referee_box {
+            referee_box.finish();
+        }
         if let Some(remote) = &mut wires.remote {
             remote.finish(world);
         }

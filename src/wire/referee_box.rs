@@ -1,99 +1,170 @@
 //! The socket on which a referee box is heard, and on which it is told how the robots are.
 
 use std::net::SocketAddr;
-use std::time::Instant;
+use std::time::Duration;
 
 use bevy::log::{info, warn};
 use bevy::prelude::*;
 
+use super::box_log::{BoxLog, ignored_line, new_penalties};
+use super::robot_status::Observers;
+use super::{WireError, WirePlan};
 use crate::clock::Clock;
 use crate::gamecontroller::BoxNews;
-use crate::gamecontroller::referee_box::RefereeBox;
-use crate::gamecontroller::status::{PORT, SeenBall, StatusPacket};
-use crate::geometry::unit;
-use crate::ids::RobotId;
-use crate::robot::Robot;
-use crate::tcm::udp::{UdpConn, UdpError};
-use crate::world_model::WorldModel;
+use crate::gamecontroller::control::Penalty;
+use crate::gamecontroller::referee_box::{RefereeBox, View};
+use crate::tcm::udp::UdpConn;
 
 /// How often robots say how they are, per second.
 const STATUS_HZ: f32 = 2.0;
+/// Seconds without a box after which a line says that it is waited for.
+const SAY_WAITING_AFTER: f64 = 1.0;
 
 pub(super) struct BoxSocket {
     conn: UdpConn,
     follower: RefereeBox,
-    /// Where the box is.
+    log: BoxLog,
+    /// Where the box is whose coming was told.
     sender: Option<SocketAddr>,
-    opened: Instant,
+    said_waiting: bool,
+    said_lost: bool,
+    numbers_are_given: bool,
+    /// How long a match without a box waits for one.
+    patience: Option<Duration>,
+    observers: Observers,
 }
 
 impl BoxSocket {
-    pub fn open(address: SocketAddr, players: u8) -> Result<BoxSocket, UdpError> {
-        let conn = UdpConn::bind(address)?;
-        Ok(BoxSocket { conn, follower: RefereeBox::new(None, players), sender: None, opened: Instant::now() })
+    pub fn open(address: SocketAddr, players: [u8; 2], plan: &WirePlan) -> Result<BoxSocket, WireError> {
+        Ok(BoxSocket {
+            conn: UdpConn::bind(address)?,
+            follower: RefereeBox::new(plan.team_numbers, players),
+            log: BoxLog::default(),
+            sender: None,
+            said_waiting: false,
+            said_lost: false,
+            numbers_are_given: plan.team_numbers.is_some(),
+            patience: plan.wait_for_box,
+            observers: Observers::default(),
+        })
     }
 
     pub fn exchange(&mut self, world: &mut World) {
         let clock = *world.resource::<Clock>();
-        let now = self.opened.elapsed().as_millis() as u64;
-        let mut view = None;
+        self.hear(&clock, &mut world.get_resource_or_init::<BoxNews>());
+        self.tell_silence(&clock);
+        self.observers.look(world);
+        if let (true, Some(to), Some(teams)) =
+            (clock.is_due(STATUS_HZ), self.sender, self.follower.team_numbers())
+        {
+            self.observers.tell(world, &mut self.conn, to, teams);
+        }
+    }
+
+    /// Takes all packets that have arrived.
+    fn hear(&mut self, clock: &Clock, news: &mut BoxNews) {
+        let now = millis(clock);
+        let mut view: Option<View> = None;
         while let Ok(Some((from, bytes))) = self.conn.receive() {
-            match self.follower.hear(bytes, now) {
-                Ok(news) => {
-                    if self.sender.replace(from) != Some(from) {
-                        info!("a referee box at {from} referees the match");
+            match self.follower.hear(from, bytes, now) {
+                Ok(None) => {}
+                Ok(Some(next)) => {
+                    self.join(from);
+                    let numbers = self.follower.team_numbers().unwrap_or_default();
+                    let last = view.as_ref().or(news.view.as_ref());
+                    for (robot, penalty) in new_penalties(last, &next) {
+                        if !matches!(penalty, Penalty::None | Penalty::Substitute) {
+                            *news.penalties.entry((robot, penalty)).or_default() += 1;
+                        }
                     }
-                    view = news.or(view);
+                    for line in self.log.changes(last, &next, numbers) {
+                        info!("referee box: {line}");
+                    }
+                    view = Some(next);
                 }
                 Err(ignored) => {
                     if self.follower.first_time(&ignored) {
-                        warn!("a packet from {from} is ignored: {ignored}");
+                        warn!("a packet from {from} is ignored, as others like it will be: {ignored}");
                     }
                 }
             }
         }
-        let mut news = world.get_resource_or_init::<BoxNews>();
         news.heard = self.follower.heard();
-        if let Some(view) = view {
-            news.view = Some(view);
-            news.last = clock.tick;
-        }
-        if clock.is_due(STATUS_HZ) {
-            self.tell(world, &clock);
+        news.sender = self.follower.followed();
+        news.team_numbers = self.follower.team_numbers();
+        if view.is_some() {
+            (news.view, news.last) = (view, clock.tick);
         }
     }
 
-    /// Tells the box where each robot believes itself and the ball to be.
-    fn tell(&mut self, world: &mut World, clock: &Clock) {
-        let (Some(sender), Some(teams)) = (self.sender, self.follower.team_numbers()) else { return };
-        let to = SocketAddr::new(sender.ip(), PORT);
-        let mut robots = world.query::<(&RobotId, &Robot, &WorldModel)>();
-        let mut packets: Vec<(RobotId, StatusPacket)> = (robots.iter(world))
-            .filter(|(_, robot, _)| !robot.condition.crashed && !robot.condition.mute)
-            .map(|(id, _, model)| (*id, status(*id, teams[id.team.index()], model, clock)))
-            .collect();
-        packets.sort_unstable_by_key(|(id, _)| *id);
-        for (_, packet) in packets {
-            // Whether anybody listens there is the box's business.
-            let _ = self.conn.send(to, &packet.write());
+    /// Says who is followed, if that is news.
+    fn join(&mut self, from: SocketAddr) {
+        if self.sender == Some(from) && std::mem::take(&mut self.said_lost) {
+            info!("the referee box at {from} is heard again");
+        }
+        self.said_lost = false;
+        if self.sender.replace(from) == Some(from) {
+            return;
+        }
+        let (Some((_, version)), Some([home, away])) =
+            (self.follower.followed(), self.follower.team_numbers())
+        else {
+            return;
+        };
+        let assumed = if self.numbers_are_given {
+            ""
+        } else {
+            ", taken from its first packet: --team-numbers names them the other way"
+        };
+        let version = version as u8;
+        info!(
+            "a referee box at {from} (version {version}) referees the match: \
+             home is team {home}, away team {away}{assumed}"
+        );
+    }
+
+    /// Says that nobody is heard yet, or nobody any more.
+    fn tell_silence(&mut self, clock: &Clock) {
+        let at = self.conn.address();
+        match self.sender {
+            None if !self.said_waiting && clock.now() >= SAY_WAITING_AFTER => {
+                self.said_waiting = true;
+                match self.follower.team_numbers() {
+                    Some([home, away]) => {
+                        info!("waiting for a referee box at {at} for the match of teams {home} and {away}");
+                    }
+                    None => info!("waiting for a referee box at {at}, for any teams"),
+                }
+            }
+            Some(sender) if !self.said_lost && self.follower.is_silent(millis(clock)) => {
+                self.said_lost = true;
+                warn!("the referee box at {sender} is silent: all robots stand until one is heard");
+            }
+            _ => {}
+        }
+    }
+
+    /// # Errors
+    /// If nobody has been heard for as long as the match waits.
+    pub fn check_patience(&self, clock: &Clock) -> Result<(), WireError> {
+        let (None, Some(patience)) = (self.sender, self.patience) else { return Ok(()) };
+        let address = self.conn.address();
+        if clock.now() < patience.as_secs_f64() {
+            Ok(())
+        } else {
+            Err(WireError::NoBox { address, patience })
+        }
+    }
+
+    /// Says how many packets were ignored.
+    pub fn finish(&self) {
+        if let Some(line) = ignored_line(&self.follower.heard()) {
+            warn!("{line}");
         }
     }
 }
 
-fn status(id: RobotId, team_number: u8, model: &WorldModel, clock: &Clock) -> StatusPacket {
-    let ball = model.ball.map(|ball| {
-        let away = ball.position - model.pose.position;
-        let forward = unit(model.pose.heading);
-        let age = clock.tick.saturating_sub(ball.seen) as f32 * clock.dt;
-        SeenBall { age, x: away.dot(forward), y: away.dot(forward.perp()) }
-    });
-    StatusPacket {
-        player_number: id.number + 1,
-        team_number,
-        fallen: false,
-        x: model.pose.position.x,
-        y: model.pose.position.y,
-        theta: model.pose.heading,
-        ball,
-    }
+/// The match's clock in milliseconds. A match that a box referees runs in real time.
+fn millis(clock: &Clock) -> u64 {
+    (1000.0 * clock.now()).round() as u64
 }

@@ -1,6 +1,6 @@
 //! Matches that are announced as if by a referee box.
 
-use std::net::{SocketAddr, UdpSocket};
+use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 
 use touchline::game::{Match, MatchPlan};
 use touchline::gamecontroller::control::{Colour, ControlPacket, Penalty, State, Version};
@@ -38,7 +38,8 @@ fn packets(socket: &UdpSocket) -> Vec<ControlPacket> {
 #[test]
 fn a_match_that_is_announced_can_be_followed_with_its_score_state_and_seconds() {
     let (mut game, socket) = announced(talkative(0.1));
-    let mut follower = RefereeBox::new(Some([1, 2]), 4);
+    let from = SocketAddr::from((Ipv4Addr::LOCALHOST, 4000));
+    let mut follower = RefereeBox::new(Some([1, 2]), [4; 2]);
     let (mut shot, mut states, mut half) = (false, Vec::new(), 1);
     while !game.is_over() {
         if game.state().phase == Phase::Playing && !shot {
@@ -53,7 +54,7 @@ fn a_match_that_is_announced_can_be_followed_with_its_score_state_and_seconds() 
         let due = if half_time { 3 } else { usize::from(clock.tick.is_multiple_of(30)) };
         assert_eq!(packets.len(), due, "twice a second and at half time");
         let mut views = packets.iter().map(|packet| {
-            let view = follower.hear(packet, (1000.0 * clock.now()) as u64);
+            let view = follower.hear(from, packet, (1000.0 * clock.now()) as u64);
             view.expect("it is a packet about this match").expect("it is news")
         });
         let Some(view) = views.by_ref().inspect(|view| states.push((view.first_half, view.state))).last()
@@ -177,4 +178,16 @@ fn the_wall_clock_decides_once_a_window_asks_for_it_and_a_failure_is_told_once()
         assert!(told[0].contains(words), "{told:?}");
     }
     assert_eq!(told[0].lines().count(), 1, "{told:?}");
+}
+
+#[test]
+fn a_match_is_announced_with_the_numbers_that_its_teams_have() {
+    for (team_numbers, told) in [(None, [1, 2]), (Some([6, 9]), [6, 9])] {
+        let plan = talkative(0.1);
+        let wires = WirePlan { team_numbers, ..WirePlan::default() };
+        let (mut game, socket) = announced(MatchPlan { wires, ..plan });
+        game.tick();
+        let packet = packets(&socket).remove(0);
+        assert_eq!(packet.teams.each_ref().map(|team| team.team_number), told);
+    }
 }

@@ -6,7 +6,9 @@ use bevy_egui::egui::{self, RichText};
 use super::columns::{Column, figures, heading, row, words};
 use crate::clock::Clock;
 use crate::gamecontroller::BoxNews;
+use crate::gamecontroller::control::SetPlay;
 use crate::gamecontroller::referee_box::{Heard, View};
+use crate::gamecontroller::serving::Serving;
 use crate::ids::{RobotId, Team};
 use crate::inspector::{figures as numbers, tints};
 use crate::referee::{MatchState, Orders};
@@ -27,19 +29,21 @@ const ORDERS: [Column; 3] = [
 ];
 
 /// The packets that were heard, with what became of them.
-const FATES: [(&str, &str); 7] = [
+const FATES: [(&str, &str); 8] = [
     ("news", "Packets that were followed"),
     ("repeated", "The newest packet once more"),
     ("of something else", "They are no control packets"),
     ("other version", "Control packets of a version that is not understood"),
     ("wrong length", "Control packets that are too short or too long"),
     ("other teams", "Control packets about a match that is not played here"),
+    ("other box", "Control packets of another box, while the one that is followed lives"),
     ("overtaken", "Control packets that a later one had overtaken"),
 ];
 
 /// In the order of [`FATES`].
-fn fates(heard: &Heard) -> [u64; 7] {
-    [heard.news, heard.repeated, heard.not_ours, heard.version, heard.length, heard.teams, heard.stale]
+fn fates(heard: &Heard) -> [u64; 8] {
+    let Heard { news, repeated, not_ours, version, length, teams, sender, stale } = *heard;
+    [news, repeated, not_ours, version, length, teams, sender, stale]
 }
 
 pub fn show(
@@ -84,7 +88,20 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
         }
         Some(news) => {
             let ago = numbers::seconds(numbers::span(news.last, clock.tick, clock.dt));
-            ui.weak(format!("The referee box decides; it was heard {ago} ago."));
+            let who = match (news.sender, news.team_numbers) {
+                (Some((at, version)), Some([home, away])) => {
+                    let version = version as u8;
+                    format!(" at {at} (version {version}, home is team {home}, away team {away})")
+                }
+                _ => String::new(),
+            };
+            if news.is_lost(clock) {
+                let text =
+                    format!("The referee box{who} is silent since {ago}: all stand until one is heard.");
+                ui.colored_label(tints::egui(colours::CALL), text);
+            } else {
+                ui.weak(format!("The referee box{who} decides; it was heard {ago} ago."));
+            }
         }
     }
     heading(ui, &MATCH);
@@ -96,31 +113,36 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
         Team::BOTH.into_iter().zip(view.map(|view| &view.penalties).into_iter().flatten())
     {
         for penalised in penalties {
-            let reason = spaced(&format!("{:?}", penalised.penalty));
-            let text = format!("{team} {}: {reason}, {} s left", penalised.player, penalised.seconds_left);
+            let served = penalised.penalty.serving().map_or("", Serving::words);
+            let (player, reason) = (penalised.player, penalised.penalty);
+            let text = format!("{team} {player}: {reason}, {} s left, {served}", penalised.seconds_left);
             ui.label(RichText::new(text).color(tints::egui(colours::team_text(team))));
         }
     }
 }
 
 /// What the box says beside what is: name, the one if anything was said, and the other.
-fn rows(view: Option<&View>, state: &MatchState) -> [(&'static str, Option<String>, String); 6] {
+fn rows(view: Option<&View>, state: &MatchState) -> [(&'static str, Option<String>, String); 8] {
     let score = |[home, away]: [u32; 2]| format!("{home} : {away}");
     let half = |first: bool| if first { "first" } else { "second" }.to_owned();
     let team = |side: usize| Team::BOTH.get(side).map_or(numbers::UNKNOWN.into(), Team::to_string);
+    let kicks_off = Team::BOTH.into_iter().find(|team| state.kicks_off(*team));
+    let kicks_off = kicks_off.map_or("nobody".into(), |team| team.to_string());
     let said = |words: &dyn Fn(&View) -> String| view.map(words);
-    let play = |view: &View| {
-        let play = spaced(&format!("{:?}", view.set_play));
-        let stopped = if view.stopped { ", stopped" } else { "" };
-        format!("{}{stopped}", if play == "none" { "no set play".into() } else { play })
+    let stops = |stopped: bool| if stopped { "stopped" } else { "goes on" }.to_owned();
+    let play = |view: &View| match view.set_play {
+        SetPlay::None => "none".to_owned(),
+        play => play.to_string(),
     };
     [
-        ("state", said(&|view| spaced(&format!("{:?}", view.state))), state.phase.to_string()),
+        ("state", said(&|view| view.state.to_string()), state.phase.to_string()),
         ("half", said(&|view| half(view.first_half)), half(state.half == 1)),
         ("score", said(&|view| score(view.score)), score(state.score)),
         ("time left", said(&|view| clock_text(f64::from(view.seconds_left))), clock_text(state.time_left)),
-        ("kick-off", said(&|view| view.kicking.map_or("nobody".into(), team)), state.kick_off.to_string()),
-        ("play", said(&play), String::new()),
+        ("kick-off", said(&|view| view.kicking.map_or("nobody".into(), team)), kicks_off),
+        ("phase", said(&|view| view.game_phase.to_string()), String::new()),
+        ("play", said(&|view| stops(view.stopped)), stops(state.restraints.stopped)),
+        ("set play", said(&play), held_back(state)),
     ]
 }
 
@@ -131,25 +153,20 @@ fn clock_text(seconds: f64) -> String {
     format!("{sign}{:02}:{:02}", whole / 60, whole % 60)
 }
 
-/// A name from the program in words: `LocalGameStuck` as `local game stuck`.
-fn spaced(name: &str) -> String {
-    if let Some(number) = name.strip_prefix("Other(").and_then(|rest| rest.strip_suffix(')')) {
-        return format!("code {number}");
+/// Who may not move for a set play.
+fn held_back(state: &MatchState) -> String {
+    match state.restraints.held_back.len() {
+        0 => String::new(),
+        1 => "1 robot is held back".into(),
+        robots => format!("{robots} robots are held back"),
     }
-    let mut words = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !words.is_empty() {
-            words.push(' ');
-        }
-        words.extend(letter.to_lowercase());
-    }
-    words
 }
 
 fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchState) {
     let is_off = state.removed.iter().any(|removal| removal.robot == robot);
     let more = match orders.place {
         _ if is_off => off_text(state, robot),
+        _ if state.restraints.is_frozen(robot) => "penalised, stands where it is".into(),
         Some(place) if orders.state == crate::referee::RobotState::Ready => {
             let [x, y] = numbers::coordinates(place.position);
             format!("to {x}, {y} m")
@@ -166,13 +183,6 @@ fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchS
 mod tests {
     use super::*;
     use crate::referee::RuleBook;
-
-    #[test]
-    fn names_become_words_and_unknown_ones_their_number() {
-        assert_eq!(spaced("LocalGameStuck"), "local game stuck");
-        assert_eq!(spaced("Playing"), "playing");
-        assert_eq!(spaced("Other(7)"), "code 7");
-    }
 
     #[test]
     fn a_clock_that_has_run_over_is_negative() {
@@ -192,6 +202,6 @@ mod tests {
     fn every_packet_stands_beside_its_own_fate() {
         let heard = Heard { news: 1, not_ours: 3, stale: 7, ..Heard::default() };
         let named: Vec<_> = FATES.iter().map(|(name, _)| *name).zip(fates(&heard)).collect();
-        assert_eq!((named[0], named[2], named[6]), (("news", 1), ("of something else", 3), ("overtaken", 7)));
+        assert_eq!((named[0], named[2], named[7]), (("news", 1), ("of something else", 3), ("overtaken", 7)));
     }
 }

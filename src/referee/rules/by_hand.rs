@@ -37,7 +37,7 @@ pub(super) fn places_by_hand(
         .any(|(robot, at)| !misplaced.contains(&robot) && is_kickers_place(laws, state, robot, at));
     let mut kicker_is_due = !kicker_stands;
     for robot in misplaced {
-        let kicks = kicker_is_due && robot.team == state.kick_off && robot.number != RuleBook::KEEPER;
+        let kicks = kicker_is_due && state.kicks_off(robot.team) && robot.number != RuleBook::KEEPER;
         kicker_is_due &= !kicks;
         let at = place_by_hand(laws, state, robot, kicks, &taken);
         taken.push(at.position);
@@ -89,7 +89,7 @@ fn place_by_hand(laws: &Laws, state: &MatchState, robot: RobotId, kicks: bool, t
     let mut places: Vec<Vec2> = match (robot.number == RuleBook::KEEPER, kicks) {
         (true, _) => vec![keeper],
         (false, true) => vec![kicker],
-        (false, false) if robot.team != state.kick_off => vec![corner],
+        (false, false) if !state.kicks_off(robot.team) => vec![corner],
         _ => vec![],
     };
     let first = places.first().copied().unwrap_or(corner);

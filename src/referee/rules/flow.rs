@@ -118,7 +118,7 @@ pub(super) fn kick_off(
         returns::all(laws, observation, state, decisions);
     }
     match laws.book.kick_off {
-        KickOffStyle::Carried => decisions.push(Decision::RobotsPlaced { kick_off: state.kick_off }),
+        KickOffStyle::Carried => decisions.push(Decision::RobotsPlaced { kick_off: Some(state.kick_off) }),
         KickOffStyle::Walked if state.time_left == laws.book.half_seconds() => {
             by_hand::line_up(laws, observation, state, decisions);
         }
@@ -141,7 +141,7 @@ mod tests {
         table.run(1.0 / 60.0);
         let first = [
             Decision::BallPlaced { at: Vec2::ZERO, reason: PlacementReason::KickOff },
-            Decision::RobotsPlaced { kick_off: Team::Home },
+            Decision::RobotsPlaced { kick_off: Some(Team::Home) },
             Decision::PhaseChanged(Phase::Ready),
         ];
         assert_eq!(table.decisions(), first);

@@ -33,7 +33,8 @@ mod walkthrough;
 pub(super) use four_legged_table::{four_legged_book, read_book};
 
 use bevy::prelude::Vec2;
-pub use following::follow;
+pub(super) use following::Following;
+pub use following::{Word, follow};
 
 use super::decision::{Decision, RemovalReason};
 use super::rulebook::RuleBook;

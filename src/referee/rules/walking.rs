@@ -58,7 +58,7 @@ pub(super) fn misplaced(laws: &Laws, observation: &Observation, state: &MatchSta
 /// Whether a robot is where only the robot that kicks off may be.
 pub(super) fn is_kickers_place(laws: &Laws, state: &MatchState, robot: RobotId, at: Vec2) -> bool {
     let ahead = state.attacking(robot.team).turn(at);
-    robot.team == state.kick_off
+    state.kicks_off(robot.team)
         && robot.number != RuleBook::KEEPER
         && laws.pitch.holds(ahead, 0.0)
         && ahead.x > -laws.pitch.length / 4.0
