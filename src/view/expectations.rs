@@ -153,7 +153,10 @@ mod tests {
             app.insert_resource(expectations).add_systems(Last, tell_whoever_started_us);
             app.update();
             assert_eq!(app.should_exit(), None);
-            app.world_mut().write_message(AppExit::Success);
+            // Bevy notices within a frame that its window has been closed.
+            app.add_systems(PostUpdate, |mut exits: MessageWriter<AppExit>| {
+                exits.write(AppExit::Success);
+            });
             app.update();
             assert_eq!(app.should_exit(), Some(expected));
         }
