@@ -16,7 +16,8 @@ use crate::scenario::ScenarioPlan;
 
 #[derive(Args, Debug, Default)]
 pub(super) struct Play {
-    /// A scenario: a name among the assets or a path; played with its first seed unless another is given.
+    /// A scenario: a name among the assets or a path; played with its first seed unless another is given, and with
+    /// the ball at the first of its places.
     #[arg(conflicts_with_all = ["MatchOptions", "HostOptions", "pilot"])]
     scenario: Option<String>,
     #[command(flatten)]
@@ -71,6 +72,8 @@ impl Play {
         tell(format_args!("{missing}, so the scenario is played headless"));
         let seed = seed.or_else(|| plan.scenario.seeds.first().copied());
         plan.scenario.seeds = seed.into_iter().collect();
+        plan.scenario.places.truncate(1);
+        plan.scenario.may_fail = 0;
         let report = plan.run_until(None, &|| interrupt.is_asked());
         writeln!(out, "{report}")?;
         Ok(match report.passed() {

@@ -181,6 +181,8 @@ fn one() -> u64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Thing {
     Ball,
+    /// The place where the ball was at the start.
+    BallAtStart,
     Robot(RobotId),
     /// A point in the pitch frame, m.
     At(f32, f32),

@@ -28,6 +28,9 @@ pub struct ScenarioFile {
     pub radio: String,
     #[serde(default)]
     pub seeds: Seeds,
+    /// With how many of the seeds it may fail, at each place of the ball.
+    #[serde(default)]
+    pub may_fail: u16,
     /// How long it takes.
     pub seconds: f32,
     #[serde(default)]
@@ -121,13 +124,31 @@ pub struct PlayerFile {
 }
 
 /// Where the ball starts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BallFile {
-    pub at: Vec2,
+    pub at: Places,
     /// m/s
     #[serde(default)]
     pub velocity: Vec2,
+}
+
+/// One place, or the crossings of a grid: the scenario is played at each of them, with each of its seeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a place, such as (1, 2), or a grid, such as (x: [0, 1], y: [-2, 2])")]
+pub enum Places {
+    One(Vec2),
+    Grid { x: Vec<f32>, y: Vec<f32> },
+}
+
+impl Places {
+    /// Column by column from the grid's first x.
+    pub fn to_vec(&self) -> Vec<Vec2> {
+        match self {
+            Places::One(place) => vec![*place],
+            Places::Grid { x, y } => x.iter().flat_map(|x| y.iter().map(|y| Vec2::new(*x, *y))).collect(),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -174,6 +195,16 @@ mod tests {
         assert_eq!(parsed::<Seeds>("[7, 11]").to_vec(), [7, 11]);
         let text = EXAMPLE.replace("seeds: 3", "seeds: -3");
         assert!(trouble(&text).ends_with("seeds: expected a number of seeds or a list of seeds"));
+    }
+
+    #[test]
+    fn the_ball_is_at_one_place_or_at_the_crossings_of_a_grid() {
+        assert_eq!(parsed::<Places>("(1, -2)").to_vec(), [Vec2::new(1.0, -2.0)]);
+        let grid = parsed::<Places>("(x: [0, 1.5], y: [-2, 2])").to_vec();
+        let crossings = [(0.0, -2.0), (0.0, 2.0), (1.5, -2.0), (1.5, 2.0)];
+        assert_eq!(grid, crossings.map(|(x, y)| Vec2::new(x, y)));
+        let error = trouble(&EXAMPLE.replace("at: (-1.5, 0.5)", "at: (x: [0])"));
+        assert!(error.contains("ball.at: expected a place, such as (1, 2), or a grid"), "{error}");
     }
 
     #[test]

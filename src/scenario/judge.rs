@@ -1,5 +1,7 @@
 //! The judge of a scenario: looks at every tick and says which expectations were met.
 
+use bevy::prelude::Vec2;
+
 use super::check::Scenario;
 use super::condition::Expectation;
 use super::scene::Scene;
@@ -11,6 +13,8 @@ pub struct Judge {
     /// Length of a tick, s.
     dt: f32,
     cases: Vec<Case>,
+    /// m in the pitch frame
+    ball_at_start: Vec2,
     /// The tick observed last.
     tick: u64,
 }
@@ -67,11 +71,16 @@ enum State {
 }
 
 impl Judge {
-    /// A judge for one run with ticks of `dt` seconds.
-    pub fn new(scenario: &Scenario, dt: f32) -> Judge {
+    /// A judge for one run with the ball at one of the scenario's places and ticks of `dt` seconds.
+    pub fn new(scenario: &Scenario, ball_at_start: Vec2, dt: f32) -> Judge {
         let end = scenario.ticks(dt);
         let cases = scenario.expect.iter().map(|expectation| Case::new(expectation, dt, end)).collect();
-        Judge { dt, cases, tick: 0 }
+        Judge { dt, cases, ball_at_start, tick: 0 }
+    }
+
+    /// Where the ball was at the start of the run, m in the pitch frame.
+    pub fn ball_at_start(&self) -> Vec2 {
+        self.ball_at_start
     }
 
     /// Looks at the next tick.

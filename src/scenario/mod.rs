@@ -20,7 +20,7 @@ mod words;
 pub use check::{Known, KnownTeam, Player, Scenario, Side, check};
 pub use condition::{Area, Condition, Expectation, Packets, Thing};
 pub use event::{Dependency, Event, TimedEvent};
-pub use file::{BallFile, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
+pub use file::{BallFile, Places, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
 pub use judge::{Failure, Judge, Verdict};
 pub use plan::ScenarioPlan;
 pub use report::{Report, Run, junit};

@@ -77,9 +77,18 @@ impl ScenarioPlan {
         }
     }
 
-    /// The match with a seed.
+    /// The match with a seed, and with the ball at the first of its places.
     pub fn with_seed(&self, seed: u64) -> MatchPlan {
         MatchPlan { seed, ..self.match_plan.clone() }
+    }
+
+    /// The match with a seed and with the ball at a place.
+    pub(super) fn with_ball_at(&self, place: Vec2, seed: u64) -> MatchPlan {
+        let mut plan = self.with_seed(seed);
+        if let Some(situation) = &mut plan.situation {
+            situation.ball = place;
+        }
+        plan
     }
 
     /// The same scenario without what it is said to depend on, in all teams.
@@ -151,8 +160,8 @@ fn situation(scenario: &Scenario) -> Situation {
     Situation {
         refereed: scenario.referee == Referee::Whole,
         robots: scenario.players().map(placed).collect(),
-        ball: scenario.ball.at,
-        velocity: scenario.ball.velocity,
+        ball: scenario.first_place(),
+        velocity: scenario.velocity,
     }
 }
 

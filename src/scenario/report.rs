@@ -3,10 +3,12 @@
 use std::fmt::{self, Display, Formatter};
 use std::time::Duration;
 
+use bevy::prelude::Vec2;
 use quick_junit::{NonSuccessKind, SerializeError, TestCase, TestCaseStatus, TestSuite};
 
 use super::event::Dependency;
 use super::judge::{Failure, Verdict};
+use super::words::{list, metres_of};
 use crate::data::in_one_line;
 
 /// All runs of one scenario.
@@ -18,6 +20,9 @@ pub struct Report {
     pub name: String,
     /// What was switched off: the scenario must then fail with at least one seed.
     pub without: Option<Dependency>,
+    /// With how many seeds it may fail, at each place of the ball.
+    pub may_fail: usize,
+    /// Place by place.
     pub runs: Vec<Run>,
     /// Whether it was stopped before all of its runs were played.
     pub interrupted: bool,
@@ -26,20 +31,35 @@ pub struct Report {
 /// A scenario played with one seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
+    /// Where the ball started, in the pitch frame.
+    pub place: Vec2,
     pub seed: u64,
     pub verdict: Verdict,
     /// Wall time.
     pub took: Duration,
 }
 
+/// The runs with the ball at one place.
+struct PlaceRuns<'a>(&'a [Run]);
+
+impl PlaceRuns<'_> {
+    fn failed(&self) -> impl Iterator<Item = &Run> {
+        self.0.iter().filter(|run| !run.verdict.passed())
+    }
+}
+
 impl Report {
     /// Whether the scenario came out as it must. One that was not played did not.
     pub fn passed(&self) -> bool {
-        let failed = self.failed().count();
+        let failed = self.places().any(|place| place.failed().count() > self.may_fail);
         match self.without {
-            None => failed == 0 && !self.runs.is_empty(),
-            Some(_) => failed > 0,
+            None => !failed && !self.runs.is_empty(),
+            Some(_) => failed,
         }
+    }
+
+    fn places(&self) -> impl Iterator<Item = PlaceRuns<'_>> {
+        self.runs.chunk_by(|a, b| a.place == b.place).map(PlaceRuns)
     }
 
     fn failed(&self) -> impl Iterator<Item = &Run> {
@@ -53,28 +73,58 @@ impl Report {
             None => name,
         }
     }
+
+    /// "10 seeds", or "25 places, 10 seeds".
+    fn played(&self) -> String {
+        let places = self.places().count();
+        let seeds = self.places().next().map_or(0, |place| place.0.len());
+        let seeds = if seeds == 1 { "1 seed".to_owned() } else { format!("{seeds} seeds") };
+        if places > 1 { format!("{places} places, {seeds}") } else { seeds }
+    }
+
+    /// "10 seeds", or "250 runs (25 places, 10 seeds)".
+    fn runs_in_words(&self) -> String {
+        match self.places().count() {
+            0 | 1 => self.played(),
+            _ => format!("{} runs ({})", self.runs.len(), self.played()),
+        }
+    }
 }
 
 /// `ok    <name> (10 seeds)`, or `FAIL  <name>: 3 of 10 seeds` with a line for each expectation that was not met; no line
-/// break at the end.
+/// break at the end. With the ball at several places there is a line for each at which it failed, be it as often as it may.
 impl Display for Report {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let title = self.title();
-        let played = self.runs.len();
-        let seeds = if played == 1 { "1 seed".to_owned() } else { format!("{played} seeds") };
+        let (title, played) = (self.title(), self.played());
         let failed = self.failed().count();
         match (self.passed(), self.without) {
-            _ if self.interrupted => write!(f, "stop  {title}: {failed} of {seeds} failed so far"),
-            (true, None) => write!(f, "ok    {title} ({seeds})"),
-            (true, Some(_)) => write!(f, "ok    {title}: fails as it must, {failed} of {seeds}"),
-            (false, _) if played == 0 => write!(f, "FAIL  {title}: was not played"),
-            (false, Some(_)) => write!(f, "FAIL  {title}: passes all the same ({seeds})"),
-            (false, None) => {
-                write!(f, "FAIL  {title}: {failed} of {seeds}")?;
-                let failed: Vec<&Run> = self.failed().collect();
-                write_failures(f, &failed, played)
+            _ if self.interrupted => {
+                return write!(f, "stop  {title}: {failed} of {} failed so far", self.runs_in_words());
             }
+            (true, None) if failed > 0 => write!(f, "ok    {title} ({played}; {failed} failed, as may be)")?,
+            (true, None) => return write!(f, "ok    {title} ({played})"),
+            (true, Some(_)) => {
+                return write!(f, "ok    {title}: fails as it must, {failed} of {}", self.runs_in_words());
+            }
+            (false, _) if self.runs.is_empty() => return write!(f, "FAIL  {title}: was not played"),
+            (false, Some(_)) => return write!(f, "FAIL  {title}: passes all the same ({played})"),
+            (false, None) => write!(f, "FAIL  {title}: {failed} of {}", self.runs_in_words())?,
         }
+        if self.places().nth(1).is_some() {
+            return self.places().try_for_each(|place| place.write_failed_seeds(f));
+        }
+        let failed: Vec<&Run> = self.failed().collect();
+        write_failures(f, &failed, self.runs.len())
+    }
+}
+
+impl PlaceRuns<'_> {
+    fn write_failed_seeds(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let seeds: Vec<u64> = self.failed().map(|run| run.seed).collect();
+        let (Some(run), played) = (self.0.first().filter(|_| !seeds.is_empty()), self.0.len()) else {
+            return Ok(());
+        };
+        write!(f, "\n      ball at {}: {}", metres_of(run.place), seeds_in_words(&seeds, played))
     }
 }
 
@@ -129,8 +179,8 @@ fn xml(text: &str) -> String {
     text.replace(|c| !is_allowed(c), "\u{FFFD}")
 }
 
-/// JUnit XML with a suite for each scenario and a case for each seed; a scenario played without something is one case, since
-/// its seeds may pass.
+/// JUnit XML with a suite for each scenario and a case for each seed, or for each place of the ball if there are several or
+/// some seeds may fail; a scenario played without something is one case, since its seeds may pass.
 ///
 /// # Errors
 /// If the XML cannot be written.
@@ -148,6 +198,8 @@ fn suite(report: &Report) -> TestSuite {
         let failure = (!report.passed()).then(|| report.to_string());
         let took = report.runs.iter().map(|run| run.took).sum();
         suite.add_test_case(case(report, "all seeds", failure, took));
+    } else if report.may_fail > 0 || report.places().nth(1).is_some() {
+        suite.add_test_cases(report.places().map(|place| place_case(report, &place)));
     } else {
         suite.add_test_cases(report.runs.iter().map(|run| {
             let failures: Vec<String> = run.verdict.failures.iter().map(Failure::to_string).collect();
@@ -156,6 +208,15 @@ fn suite(report: &Report) -> TestSuite {
         }));
     }
     suite
+}
+
+fn place_case(report: &Report, place: &PlaceRuns) -> TestCase {
+    let failures = place
+        .failed()
+        .flat_map(|run| run.verdict.failures.iter().map(|failure| format!("seed {}, {failure}", run.seed)));
+    let failure = (place.failed().count() > report.may_fail).then(|| list(failures, "\n"));
+    let name = place.0.first().map_or_else(String::new, |run| format!("ball at {}", metres_of(run.place)));
+    case(report, &name, failure, place.0.iter().map(|run| run.took).sum())
 }
 
 fn case(report: &Report, name: &str, failure: Option<String>, took: Duration) -> TestCase {
@@ -174,158 +235,4 @@ fn case(report: &Report, name: &str, failure: Option<String>, took: Duration) ->
 }
 
 #[cfg(test)]
-mod tests {
-    use quick_xml::events::Event;
-    use quick_xml::{Reader, XmlVersion};
-
-    use super::*;
-
-    fn failure(tick: u64) -> Failure {
-        Failure {
-            expectation: "by 5 s: home 1 is forward".into(),
-            tick,
-            seconds: tick as f64 / 60.0,
-            reason: "home 1 was halfback, not forward".into(),
-        }
-    }
-
-    fn report(failing: &[u64], without: Option<Dependency>) -> Report {
-        let runs = (1..=3).map(|seed| {
-            let failures = if failing.contains(&seed) { vec![failure(300)] } else { Vec::new() };
-            Run { seed, verdict: Verdict { failures }, took: Duration::from_millis(1500) }
-        });
-        Report {
-            file: "swap".into(),
-            name: "A <swap> works".into(),
-            without,
-            runs: runs.collect(),
-            interrupted: false,
-        }
-    }
-
-    #[test]
-    fn a_scenario_that_passes_is_one_line() {
-        assert_eq!(report(&[], None).to_string(), "ok    A <swap> works (3 seeds)");
-        let mut one = report(&[], None);
-        one.runs.truncate(1);
-        assert_eq!(one.to_string(), "ok    A <swap> works (1 seed)");
-    }
-
-    const REASON: &str =
-        "tick 300 (5.00 s): expected by 5 s: home 1 is forward, but home 1 was halfback, not forward";
-
-    #[test]
-    fn a_scenario_that_fails_alike_on_some_or_all_seeds_says_so_once() {
-        let some = report(&[1, 3], None);
-        assert!(!some.passed());
-        assert_eq!(
-            some.to_string(),
-            format!("FAIL  A <swap> works: 2 of 3 seeds\n      seeds 1, 3, {REASON}")
-        );
-        let one = report(&[2], None).to_string();
-        assert_eq!(one, format!("FAIL  A <swap> works: 1 of 3 seeds\n      seed 2, {REASON}"));
-        let mut all = report(&[1, 2, 3], None);
-        let line = format!("FAIL  A <swap> works: 3 of 3 seeds\n      all 3 seeds, {REASON}");
-        assert_eq!(all.to_string(), line);
-        let template = all.runs[0].clone();
-        all.runs = (1..=30).map(|seed| Run { seed, ..template.clone() }).collect();
-        assert!(all.to_string().ends_with(&format!("\n      all 30 seeds, {REASON}")), "{all}");
-        all.runs[4].verdict = Verdict::default();
-        assert!(all.to_string().ends_with(&format!("\n      29 seeds, {REASON}")), "{all}");
-    }
-
-    #[test]
-    fn an_expectation_that_fails_in_different_ways_is_told_with_the_first_seed() {
-        let mut report = report(&[1, 3], None);
-        report.runs[2].verdict.failures = vec![failure(7)];
-        let other = Failure { expectation: "never: the ball is out".into(), ..failure(9) };
-        report.runs[2].verdict.failures.push(other.clone());
-        let expected = format!(
-            "FAIL  A <swap> works: 2 of 3 seeds\n      seeds 1, 3; with seed 1, {REASON}\n      seed 3, {other}"
-        );
-        assert_eq!(report.to_string(), expected);
-    }
-
-    #[test]
-    fn a_scenario_that_is_stopped_tells_what_it_came_to_and_counts_as_skipped() {
-        let mut report = report(&[1], None);
-        report.interrupted = true;
-        assert_eq!(report.to_string(), "stop  A <swap> works: 1 of 3 seeds failed so far");
-        report.runs.clear();
-        let xml = junit(&[report]).unwrap();
-        assert!(xml.contains("skipped=\"1\"") && xml.contains("failures=\"0\""), "{xml}");
-    }
-
-    #[test]
-    fn a_scenario_that_was_not_played_has_not_passed() {
-        let mut empty = report(&[], None);
-        empty.runs.clear();
-        assert!(!empty.passed());
-        assert_eq!(empty.to_string(), "FAIL  A <swap> works: was not played");
-        empty.without = Some(Dependency::Claims);
-        assert!(!empty.passed());
-        assert!(junit(&[empty]).unwrap().contains("failures=\"1\""));
-    }
-
-    #[test]
-    fn without_what_it_depends_on_a_scenario_must_fail() {
-        let fails = report(&[2], Some(Dependency::RoleSwap));
-        assert!(fails.passed());
-        assert_eq!(
-            fails.to_string(),
-            "ok    A <swap> works, without role swaps: fails as it must, 1 of 3 seeds"
-        );
-        let passes = report(&[], Some(Dependency::RoleSwap));
-        assert!(!passes.passed());
-        assert_eq!(
-            passes.to_string(),
-            "FAIL  A <swap> works, without role swaps: passes all the same (3 seeds)"
-        );
-    }
-
-    #[test]
-    fn junit_is_xml_whatever_a_name_holds() {
-        let wild: String =
-            ('\0'..='\u{FF}').chain("\u{2028}\u{FFFE}\u{FFFF}\u{10FFFF}]]>&amp;<!--".chars()).collect();
-        let mut report = report(&[1, 2, 3], None);
-        report.name = wild.clone();
-        report.file = wild.clone();
-        for run in &mut report.runs {
-            run.verdict.failures[0].expectation = wild.clone();
-            run.verdict.failures[0].reason = wild.clone();
-        }
-        let xml = junit(&[report.clone(), Report { without: Some(Dependency::RoleSwap), ..report }]).unwrap();
-        let is_allowed =
-            |c: char| matches!(u32::from(c), 0x9 | 0xA | 0xD | 0x20..=0xD7FF | 0xE000..=0xFFFD | 0x10000..);
-        assert!(xml.chars().all(is_allowed), "{xml}");
-        let mut reader = Reader::from_str(&xml);
-        let mut text = String::new();
-        loop {
-            match reader.read_event().expect("it is XML") {
-                Event::Start(tag) | Event::Empty(tag) => {
-                    for attribute in tag.attributes() {
-                        let value =
-                            attribute.expect("a sound attribute").normalized_value(XmlVersion::Explicit1_0);
-                        text.push_str(&value.expect("every entity is known"));
-                    }
-                }
-                Event::Text(part) => text.push_str(&part.decode().expect("it is UTF-8")),
-                Event::Eof => break,
-                _ => {}
-            }
-        }
-        assert!(text.contains("ABC") && text.contains('\u{10FFFF}') && text.contains('\u{FFFD}'), "{text}");
-    }
-
-    #[test]
-    fn junit_has_a_suite_for_each_scenario_and_a_case_for_each_seed() {
-        let xml = junit(&[report(&[2], None), report(&[2], Some(Dependency::RoleSwap))]).unwrap();
-        assert_eq!(xml.matches("<testsuite ").count(), 2);
-        assert_eq!(xml.matches("<testcase ").count(), 4);
-        assert_eq!(xml.matches("<failure ").count(), 1);
-        assert!(xml.contains(r#"<testsuite name="A &lt;swap&gt; works" tests="3""#), "{xml}");
-        assert!(xml.contains(r#"<testcase name="seed 2" classname="swap" time="1.500">"#), "{xml}");
-        assert!(xml.contains("but home 1 was halfback, not forward"));
-        assert_eq!(junit(&[report(&[2], None)]).unwrap(), junit(&[report(&[2], None)]).unwrap());
-    }
-}
+mod tests;

@@ -6,6 +6,7 @@ use std::time::Instant;
 use bevy::prelude::*;
 use xxhash_rust::xxh3::Xxh3DefaultBuilder;
 
+use super::check::Scenario;
 use super::event::Dependency;
 use super::judge::{Judge, Verdict};
 use super::plan::ScenarioPlan;
@@ -25,7 +26,7 @@ use crate::strategy::{Strategies, Strategy};
 use crate::teamwork::{Booking, Role, Standing, Swapping, TeamPicture};
 
 impl ScenarioPlan {
-    /// Plays the scenario with each of its seeds.
+    /// Plays the scenario with the ball at each of its places and with each of its seeds.
     pub fn run(&self, without: Option<Dependency>) -> Report {
         self.run_until(without, &|| false)
     }
@@ -33,31 +34,34 @@ impl ScenarioPlan {
     /// Plays the scenario with each of its seeds, or until it is to stop: then the run of that moment does not count.
     pub fn run_until(&self, without: Option<Dependency>, stop: &dyn Fn() -> bool) -> Report {
         let plan = without.map_or_else(|| self.clone(), |dependency| self.without(dependency));
-        let runs = self.scenario.seeds.iter().map_while(|seed| {
+        let Scenario { places, seeds, .. } = &self.scenario;
+        let runs = places.iter().flat_map(|place| seeds.iter().map(|seed| (*place, *seed)));
+        let runs = runs.map_while(|(place, seed)| {
             let start = Instant::now();
-            let verdict = plan.play_until(*seed, stop)?;
-            Some(Run { seed: *seed, verdict, took: start.elapsed() })
+            let verdict = plan.play_until(place, seed, stop)?;
+            Some(Run { place, seed, verdict, took: start.elapsed() })
         });
         let runs: Vec<Run> = runs.collect();
         Report {
             file: self.path.display().to_string(),
             name: self.scenario.name.clone(),
             without,
-            interrupted: runs.len() < self.scenario.seeds.len(),
+            may_fail: self.scenario.may_fail,
+            interrupted: runs.len() < places.len() * seeds.len(),
             runs,
         }
     }
 
-    /// Plays the scenario with one seed, until everything is decided.
-    pub fn play(&self, seed: u64) -> Verdict {
-        self.play_until(seed, &|| false).unwrap_or_default()
+    /// Plays the scenario with the ball at one place and with one seed, until everything is decided.
+    pub fn play(&self, place: Vec2, seed: u64) -> Verdict {
+        self.play_until(place, seed, &|| false).unwrap_or_default()
     }
 
     /// As [`ScenarioPlan::play`]; `None` if it is to stop before.
-    fn play_until(&self, seed: u64, stop: &dyn Fn() -> bool) -> Option<Verdict> {
-        let mut game = Match::new(&self.with_seed(seed));
+    fn play_until(&self, place: Vec2, seed: u64, stop: &dyn Fn() -> bool) -> Option<Verdict> {
+        let mut game = Match::new(&self.with_ball_at(place, seed));
         let dt = game.clock().dt;
-        let mut judge = Judge::new(&self.scenario, dt);
+        let mut judge = Judge::new(&self.scenario, place, dt);
         for _ in 0..self.scenario.ticks(dt) {
             if stop() {
                 return None;
@@ -99,6 +103,7 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
         pitch: world.resource::<Pitch>(),
         ball: ball.position,
         ball_velocity: motion.linear,
+        ball_at_start: judge.ball_at_start(),
         robots: scenes,
         score: world.resource::<MatchState>().score,
         messages: world.resource::<MessageCounts>(),

@@ -19,6 +19,8 @@ pub struct Scene<'a> {
     pub ball: Vec2,
     /// m/s in the pitch frame.
     pub ball_velocity: Vec2,
+    /// Where the ball was at the start, m in the pitch frame.
+    pub ball_at_start: Vec2,
     /// Those that take part, in order; also those that are switched off.
     pub robots: Vec<RobotScene<'a>>,
     /// Goals, home first.
@@ -73,6 +75,7 @@ impl Scene<'_> {
     pub fn position(&self, thing: Thing) -> Option<Vec2> {
         match thing {
             Thing::Ball => Some(self.ball),
+            Thing::BallAtStart => Some(self.ball_at_start),
             Thing::Robot(robot) => self.robot(robot).map(|robot| robot.pose.position),
             Thing::At(x, y) => Some(Vec2::new(x, y)),
             Thing::Goal(team) => Some(MatchState::attacking_at_start(team).turn(-self.pitch.goal_centre())),
@@ -84,7 +87,7 @@ impl Scene<'_> {
         match thing {
             Thing::Ball => Some(self.ball_velocity.length()),
             Thing::Robot(robot) => self.robot(robot).map(|robot| robot.speed),
-            Thing::At(..) | Thing::Goal(_) => Some(0.0),
+            Thing::BallAtStart | Thing::At(..) | Thing::Goal(_) => Some(0.0),
         }
     }
 

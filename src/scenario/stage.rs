@@ -110,6 +110,7 @@ impl Stage {
             pitch: &self.pitch,
             ball: self.ball,
             ball_velocity: Vec2::ZERO,
+            ball_at_start: Vec2::ZERO,
             robots: self.robots.clone(),
             score: self.score,
             messages: &self.messages,

@@ -22,6 +22,7 @@ impl Display for Thing {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Thing::Ball => f.write_str("the ball"),
+            Thing::BallAtStart => f.write_str("where the ball was at the start"),
             Thing::Robot(robot) => robot.fmt(f),
             Thing::At(x, y) => write!(f, "({x}, {y})"),
             Thing::Goal(team) => write!(f, "{team}'s goal"),

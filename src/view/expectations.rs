@@ -34,7 +34,7 @@ pub enum Standing {
 impl Expectations {
     pub fn of(scenario: Option<&Scenario>, dt: f32) -> Expectations {
         Expectations {
-            judge: scenario.map(|scenario| Judge::new(scenario, dt)),
+            judge: scenario.map(|scenario| Judge::new(scenario, scenario.first_place(), dt)),
             end: scenario.map_or(0, |scenario| scenario.ticks(dt)),
         }
     }
@@ -130,7 +130,7 @@ mod tests {
             observe(seen.world_mut(), expectations.judge.as_mut().unwrap());
         }
         assert_eq!(seen.record().digest, unseen.record().digest);
-        let passed = plan.play(1).passed();
+        let passed = plan.play(plan.scenario.first_place(), 1).passed();
         assert_eq!(expectations.whole() == Standing::Met, passed);
         assert_eq!(expectations.reasons().is_empty(), passed);
     }

@@ -62,7 +62,7 @@ impl Checker<'_> {
             Condition::Speed { of, below, above } => {
                 let at = at.key("Speed");
                 self.thing(*of, &at.key("of"))?;
-                if let Thing::At(..) | Thing::Goal(_) = of {
+                if let Thing::BallAtStart | Thing::At(..) | Thing::Goal(_) = of {
                     return self.fault(&at.key("of"), "does not move");
                 }
                 self.limits(*below, *above, &at)
@@ -161,7 +161,7 @@ impl Checker<'_> {
                 self.source.finite(&at.key("At").index(0), x)?;
                 self.source.finite(&at.key("At").index(1), y).map(drop)
             }
-            Thing::Ball | Thing::Goal(_) => Ok(()),
+            Thing::Ball | Thing::BallAtStart | Thing::Goal(_) => Ok(()),
         }
     }
 

@@ -9,7 +9,7 @@ use bevy::prelude::Vec2;
 
 use super::condition::Expectation;
 use super::event::{Dependency, Event, TimedEvent};
-use super::file::{BallFile, PlayerFile, Referee, ScenarioFile, SideFile};
+use super::file::{Places, PlayerFile, Referee, ScenarioFile, SideFile};
 use super::watch::ticks;
 use crate::data::{DataError, Field, Source, no_such};
 use crate::geometry::Pose;
@@ -31,11 +31,16 @@ pub struct Scenario {
     /// The file's name.
     pub radio: String,
     pub seeds: Vec<u64>,
+    /// With how many of the seeds it may fail, at each place of the ball.
+    pub may_fail: usize,
     pub seconds: f32,
     pub referee: Referee,
     /// Home first.
     pub sides: [Option<Side>; 2],
-    pub ball: BallFile,
+    /// Where the ball starts, in the pitch frame: one run for each, with each seed.
+    pub places: Vec<Vec2>,
+    /// Of the ball at the start, m/s in the pitch frame.
+    pub velocity: Vec2,
     pub faults: Vec<FaultRule>,
     /// In the order of their times.
     pub script: Vec<TimedEvent>,
@@ -47,6 +52,11 @@ impl Scenario {
     /// How many ticks of `dt` seconds it takes.
     pub fn ticks(&self, dt: f32) -> u64 {
         ticks(self.seconds, dt)
+    }
+
+    /// Where the ball starts in the first run.
+    pub fn first_place(&self) -> Vec2 {
+        self.places.first().copied().unwrap_or_default()
     }
 
     /// All robots that take part, in order.
@@ -112,6 +122,11 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
         return checker.fault(&root.key("seconds"), message);
     }
     let seeds = checker.seeds(file.seeds.to_vec(), &root.key("seeds"))?;
+    let may_fail = usize::from(file.may_fail);
+    if may_fail >= seeds.len() {
+        let message = format!("must be less than the number of seeds, {}", seeds.len());
+        return checker.fault(&root.key("may_fail"), message);
+    }
     if !known.radios.contains(&file.radio) {
         return checker.fault(&root.key("radio"), no_such("radio", &file.radio, &known.radios));
     }
@@ -120,7 +135,7 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
         Some(away) => Some(checker.side(Team::Away, away, &root.key("away"))?),
         None => None,
     };
-    checker.on_pitch(file.ball.at, &root.key("ball").key("at"))?;
+    let places = checker.places(&file.ball.at, &root.key("ball").key("at"))?;
     checker.finite(file.ball.velocity, &root.key("ball").key("velocity"))?;
     for (i, rule) in file.faults.iter().enumerate() {
         checker.rule(rule, &root.key("faults").index(i))?;
@@ -143,10 +158,12 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
         game: file.game.clone(),
         radio: file.radio.clone(),
         seeds,
+        may_fail,
         seconds: file.seconds,
         referee: file.referee,
         sides: [Some(home), away],
-        ball: file.ball,
+        places,
+        velocity: file.ball.velocity,
         faults: file.faults.clone(),
         script,
         expect: file.expect.clone(),
@@ -225,6 +242,20 @@ impl Checker<'_> {
             Some((i, seed)) => self.fault(&at.index(i), format!("the seed {seed} is given twice")),
             None => Ok(seeds),
         }
+    }
+
+    fn places(&self, places: &Places, at: &Field) -> Result<Vec<Vec2>> {
+        let known = places.to_vec();
+        if known.is_empty() {
+            return self.fault(at, "needs at least one place");
+        }
+        for (i, place) in known.iter().enumerate() {
+            self.on_pitch(*place, at)?;
+            if known[..i].contains(place) {
+                return self.fault(at, format!("({}, {}) is given twice", place.x, place.y));
+            }
+        }
+        Ok(known)
     }
 
     fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Side> {

@@ -9,7 +9,7 @@ use crate::scenario::stage::{HZ, Stage, expecting};
 /// Plays 20 s on a stage that changes from tick to tick, until all is decided.
 fn play(expectations: &str, mut change: impl FnMut(u64, &mut Stage)) -> (Verdict, u64) {
     let scenario = expecting(expectations);
-    let mut judge = Judge::new(&scenario, 1.0 / HZ);
+    let mut judge = Judge::new(&scenario, scenario.first_place(), 1.0 / HZ);
     let mut stage = Stage::default();
     for tick in 1..=scenario.ticks(1.0 / HZ) {
         change(tick, &mut stage);
@@ -119,7 +119,7 @@ fn failures_of_several_expectations_come_in_their_order() {
 #[test]
 fn a_run_that_stops_too_early_has_failed() {
     let scenario = expecting("Always(what: RolesDistinct(Home))");
-    let mut judge = Judge::new(&scenario, 1.0 / HZ);
+    let mut judge = Judge::new(&scenario, scenario.first_place(), 1.0 / HZ);
     assert!(!judge.verdict().passed());
     judge.observe(&Stage::default().scene(5));
     assert!(!judge.is_decided());
@@ -215,6 +215,13 @@ fn every_condition_can_hold_and_fail_and_says_what_was_seen() {
             "the ball was 0.25 m from home 3",
             |it| it.ball = Vec2::new(0.0, 0.75),
             "the ball was 0.75 m from home 3",
+        ),
+        (
+            "Distance(from: Ball, to: BallAtStart, above: 0.5)",
+            |it| it.ball = Vec2::new(0.0, 0.25),
+            "the ball was 0.25 m from where the ball was at the start",
+            |it| it.ball = Vec2::new(0.0, 0.75),
+            "the ball was 0.75 m from where the ball was at the start",
         ),
         (
             r#"Speed(of: Robot("home 1"), above: 0.5)"#,
