@@ -4,6 +4,7 @@ mod b3p;
 mod booking;
 mod command_line;
 mod corpus;
+mod first_messages;
 mod network;
 mod play;
 mod policies;

@@ -82,13 +82,14 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
 }
 
 impl BidderItem<'_, '_> {
-    /// A robot books the ball that it sees, if that is where its role may go.
+    /// A robot that knows where it is books the ball that it sees, if that is where its role may go.
     fn turn(&self, strategy: &Strategy, clock: &Clock) -> Input {
         if self.off_pitch {
             return Input::Withdraw;
         }
         let sight = strategy.teamwork.ball_booking.map_or(0, |spec| clock.ticks(spec.sight));
-        let in_sight = self.model.ball.filter(|ball| clock.tick.saturating_sub(ball.seen) <= sight);
+        let known = self.model.ball.filter(|_| self.model.is_localised());
+        let in_sight = known.filter(|ball| clock.tick.saturating_sub(ball.seen) <= sight);
         let zone = self.activity.danger_zone(strategy);
         let ball = in_sight.map(|ball| ball.position).filter(|at| zone.contains(*at));
         let distance = ball.map(|at| Distance::from_metres(at.distance(self.model.pose.position)));

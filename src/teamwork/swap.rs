@@ -105,7 +105,7 @@ pub(super) fn swap_roles(
         }
         robot.receive(&spec.timers, &clock);
         robot.time_out(&spec.timers, &clock);
-        if !robot.off_pitch {
+        if !robot.off_pitch && robot.model.is_localised() {
             robot.decide(spec, strategy, &pitch, ball.kind.radius, &clock);
         }
         robot.take_role();

@@ -86,6 +86,10 @@ pub(super) fn tell_team(
         if !robot.robot.decides(&clock) || !strategy.teamwork.has(Mechanism::Messages) {
             continue;
         }
+        // Everything that it could say rests on where it is.
+        if !robot.model.is_localised() {
+            continue;
+        }
         robot.tell_of_ball(&strategy.teamwork.talk, &clock);
         if strategy.teamwork.goalie.is_some_and(|goalie| usize::from(goalie) == robot.role.0) {
             robot.tell_of_goal(strategy, &pitch, &clock);

@@ -40,6 +40,7 @@ pub struct WorldModel {
     pub robots: Vec<RobotBelief>,
     /// The team mates that have told where they are lately.
     pub mates: SmallVec<[MateBelief; 8]>,
+    is_localised: bool,
     filter: Option<BallFilter>,
     /// Believed poses of the last decisions, oldest first: a frame is older than now.
     past: VecDeque<(u64, Pose)>,
@@ -103,7 +104,12 @@ pub const EXPECTED_ROLLING: f32 = 0.3;
 impl WorldModel {
     /// The beliefs of a robot that people have just put down somewhere and told where it is.
     pub fn told(pose: Pose) -> WorldModel {
-        WorldModel { pose, ..WorldModel::default() }
+        WorldModel { pose, is_localised: true, ..WorldModel::default() }
+    }
+
+    /// Whether the robot has found out where it is, or was told; before that its pose means nothing.
+    pub fn is_localised(&self) -> bool {
+        self.is_localised
     }
 
     pub fn mate(&self, number: Number) -> Option<&MateBelief> {
@@ -156,13 +162,15 @@ impl WorldModel {
         let offset = frame.fix.position - then.position;
         let turn = wrap_angle(frame.fix.heading - then.heading);
         let jump = offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1;
-        let gain = if jump || *eyes == Eyes::Perfect { 1.0 } else { FIX_GAIN };
+        let is_believed_whole = jump || !self.is_localised || *eyes == Eyes::Perfect;
+        let gain = if is_believed_whole { 1.0 } else { FIX_GAIN };
         // The way since then is as long as before, but leads elsewhere if the robot looked elsewhere.
         let turned = unit(gain * turn);
         let correct = |pose: Pose| Pose {
             position: then.position + gain * offset + turned.rotate(pose.position - then.position),
             heading: wrap_angle(pose.heading + gain * turn),
         };
+        self.is_localised = true;
         self.pose = correct(self.pose);
         self.past.iter_mut().for_each(|(_, pose)| *pose = correct(*pose));
     }

@@ -278,3 +278,19 @@ fn a_ball_at_the_edge_of_view_or_range_may_be_missed_for_the_memorys_span() {
 }
 
 mod robots;
+
+#[test]
+fn a_robot_knows_where_it_is_from_its_first_frame_on_or_when_it_was_told() {
+    let place = Pose::new(0.5, 0.2, 0.1);
+    let mut bench = Bench::new(real(), place);
+    assert!(bench.decide(3).is_localised(), "people told it");
+    bench.world.entity_mut(bench.robot).insert(WorldModel::default());
+    assert!(!bench.decide(6).is_localised());
+    let model = bench.sees(9, None, &[]);
+    assert!(model.is_localised());
+    assert!(
+        model.pose.position.distance(place.position) < 1e-4,
+        "the first frame is believed whole: {:?}",
+        model.pose
+    );
+}

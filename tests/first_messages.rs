@@ -1,0 +1,183 @@
+//! What a robot says first is true: it says nothing that it has not sensed, be it fresh in the match or switched on again.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use touchline::clock::{Clock, TICK_HZ};
+use touchline::game::{Choice, Match, MatchPlan};
+use touchline::geometry::Pose;
+use touchline::ids::{RobotId, Team};
+use touchline::messages::{
+    BallReport, Book, GoalieBehaviour, GoalieNews, HaveBall, Message, Position, Values,
+};
+use touchline::robot::{Ailment, Recall};
+use touchline::script::{Request, Treatment};
+use touchline::sense::Eyes;
+use touchline::tcm::{Arrived, Data, as_robot};
+
+use crate::support::{assets, ball, robot};
+
+/// The first message of each kind of each robot since it was switched on, with the tick in which it arrived.
+#[derive(Resource, Default)]
+struct Firsts(BTreeMap<(RobotId, &'static str), (u64, Message)>);
+
+fn listen<T: Data + Into<Message>>(game: &mut Match) {
+    let hear = |arrived: On<Arrived<T>>, clock: Res<Clock>, mut firsts: ResMut<Firsts>| {
+        let from = as_robot(arrived.from).expect("robots speak to robots");
+        let message = (clock.tick, arrived.data.clone().into());
+        firsts.0.entry((from, T::NAME)).or_insert(message);
+    };
+    game.world_mut().add_observer(hear);
+}
+
+/// The truth at a tick: of the robots in their team frames, and of the ball in the frame of either team.
+struct Truth {
+    robots: BTreeMap<RobotId, Pose>,
+    ball: [Vec2; 2],
+}
+
+impl Truth {
+    fn of(game: &mut Match, plan: &MatchPlan) -> Truth {
+        let ends = Team::BOTH.map(|team| game.state().attacking(team));
+        let poses = plan.robots().map(|id| {
+            let (pose, _) = robot(game, id.team, id.number);
+            (id, ends[id.team.index()].turn_pose(pose))
+        });
+        let robots = poses.collect();
+        let (ball, _) = ball(game);
+        Truth { robots, ball: ends.map(|end| end.turn(ball.position)) }
+    }
+}
+
+/// The match of a shipped strategy against itself over a radio that loses nothing, which fells all robots in play and switches
+/// them on again.
+fn plan(strategy: &str) -> MatchPlan {
+    let file = if strategy.starts_with("chaos") { "four_legged_2005" } else { "friendly" };
+    let choice = Choice {
+        file: Some(file.into()),
+        home: Some(strategy.into()),
+        away: Some(strategy.into()),
+        radio: Some("perfect".into()),
+        half_minutes: Some(0.5),
+        seed: 11,
+        ..Choice::default()
+    };
+    let mut plan = MatchPlan::read(&assets(), &choice).expect("the shipped files are sound");
+    for team in &mut plan.teams {
+        // A ball that the camera made up is sensed, but not near any truth.
+        if let Eyes::Real { camera, .. } = &mut Arc::make_mut(&mut team.sensing).eyes {
+            camera.false_positive = 0.0;
+        }
+    }
+    for id in plan.robots().collect::<Vec<_>>() {
+        let then = |tick, treatment| (tick, Request::Robot(id, treatment));
+        plan.script.push(then(FALL, Treatment::Afflict(Ailment::Crashed)));
+        plan.script.push(then(RISE, Treatment::Revive(Recall::Lost)));
+    }
+    plan
+}
+
+const FALL: u64 = 1200;
+const RISE: u64 = 1230;
+
+/// How far what a robot says may lie from the truth: four deviations of its place, m, and of a sight, as a share of its length.
+fn errors(plan: &MatchPlan, id: RobotId) -> (f32, f32) {
+    match &plan.team(id.team).sensing.eyes {
+        Eyes::Perfect => (0.05, 0.05),
+        Eyes::Real { camera, localisation, .. } => {
+            (4.0 * localisation.position, 4.0 * (localisation.heading.to_radians() + camera.range_noise))
+        }
+    }
+}
+
+/// What is false about a message, given the truth by tick.
+fn falsehood(plan: &MatchPlan, id: RobotId, message: &Message, truths: &[Truth]) -> Option<String> {
+    let tick_of = |time: u32| ((f64::from(time) + 0.5) * 0.06).round() as usize;
+    let own = |tick: usize| truths[tick].robots[&id].position;
+    let ball = |tick: usize| truths[tick].ball[id.team.index()];
+    let (error, sight) = errors(plan, id);
+    let (is_true, truth) = match message {
+        Message::Position(said) => {
+            let truth = own(tick_of(said.time));
+            (said.position.distance(truth) <= error, format!("it is at {truth}"))
+        }
+        Message::HaveBall(said) => {
+            let now = tick_of(said.time);
+            // A ball that it saw is where it was, or where it rolled from there, until the robot forgets it.
+            let memory = plan.team(id.team).sensing.memory.ball * TICK_HZ;
+            let seen = now.saturating_sub(memory as usize)..=now;
+            let distance = seen.map(|tick| own(now).distance(ball(tick))).fold(f32::INFINITY, f32::min);
+            (
+                said.have_ball && distance <= 1.0 + sight,
+                format!("the ball was {distance} m away at its nearest"),
+            )
+        }
+        Message::Goalie(said) => {
+            let truth = own(tick_of(said.time));
+            let area = plan.pitch.own_penalty_area();
+            let is_true = match said.behaviour {
+                GoalieBehaviour::Leaving => !area.grown(-error).contains(truth),
+                GoalieBehaviour::Entering => area.grown(error).contains(truth),
+            };
+            (is_true, format!("it is at {truth}"))
+        }
+        Message::BallReport(said) => {
+            let seen = tick_of(said.time.saturating_sub((said.age * 1000.0) as u32));
+            let truth = ball(seen);
+            let range = truth.distance(own(seen));
+            (said.position.distance(truth) <= error + sight * range, format!("the ball is at {truth}"))
+        }
+        Message::Book(_) | Message::Values(_) | Message::RoleSwap(_) => return None,
+    };
+    (!is_true).then_some(truth)
+}
+
+/// Plays a match and checks the first messages of every life of every robot; returns how many there were.
+fn check(strategy: &str) -> usize {
+    let plan = plan(strategy);
+    let mut game = Match::new(&plan);
+    game.world_mut().init_resource::<Firsts>();
+    listen::<Position>(&mut game);
+    listen::<HaveBall>(&mut game);
+    listen::<GoalieNews>(&mut game);
+    listen::<Values>(&mut game);
+    listen::<Book>(&mut game);
+    listen::<BallReport>(&mut game);
+    let (mut truths, mut checked) = (Vec::new(), 0);
+    while !game.is_over() {
+        truths.push(Truth::of(&mut game, &plan));
+        if game.clock().tick == RISE {
+            checked += check_firsts(strategy, &plan, &mut game, &truths);
+        }
+        game.tick();
+    }
+    checked + check_firsts(strategy, &plan, &mut game, &truths)
+}
+
+fn check_firsts(strategy: &str, plan: &MatchPlan, game: &mut Match, truths: &[Truth]) -> usize {
+    let firsts = std::mem::take(&mut *game.world_mut().resource_mut::<Firsts>()).0;
+    for ((id, kind), (tick, message)) in &firsts {
+        let truth = falsehood(plan, *id, message, truths);
+        assert_eq!(truth, None, "{strategy}: {id} says in tick {tick}: {message:?}");
+        let placed = firsts.get(&(*id, Position::NAME)).map(|(tick, _)| *tick);
+        assert!(Some(*tick) >= placed && placed.is_some(), "{strategy}: {id} says {kind} before its place");
+    }
+    firsts.len()
+}
+
+#[test]
+fn the_first_message_of_each_kind_is_true_or_not_sent() {
+    let folder = assets().file("strategies", "chaos_b3p");
+    let folder = folder.parent().expect("strategies lie in a folder");
+    let files =
+        std::fs::read_dir(folder).expect("it can be read").map(|entry| entry.expect("it can be read").path());
+    let mut strategies: Vec<String> =
+        files.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect();
+    strategies.sort_unstable();
+    let checked: BTreeMap<&str, usize> =
+        strategies.iter().map(|strategy| (strategy.as_str(), check(strategy))).collect();
+    assert!(checked.len() >= 12, "{checked:?}");
+    // Where robots and have-ball or booking come twice from each of eight.
+    assert!(checked.values().sum::<usize>() > 200, "{checked:?}");
+}
