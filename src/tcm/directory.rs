@@ -91,6 +91,11 @@ impl Directory {
                 "must have a port other than 0".into()
             } else if !is_of_one_host(address.ip()) {
                 format!("must be the address of one machine, not {}", address.ip())
+            } else if address.is_ipv4() != self.entries[0].1.is_ipv4() {
+                let (first, there) = self.entries[0];
+                format!(
+                    "must be of one kind with that of {first}, {there}: IPv4 and IPv6 do not reach each other"
+                )
             } else if before.any(|(other, _)| other == entity) {
                 "is there twice".into()
             } else {
@@ -173,14 +178,14 @@ mod tests {
 
     #[test]
     fn the_table_is_read_from_a_file_and_written_to_one() {
-        let text = r#"{"computer 0":"[::1]:7499","home 0":"127.0.0.1:7400"}"#;
+        let text = r#"{"computer 0":"[::1]:7499","home 0":"[::ffff:127.0.0.1]:7400"}"#;
         let directory = read(text);
         assert_eq!(directory.fault(), None);
-        assert_eq!(directory.address_of(home(0)), Some("127.0.0.1:7400".parse().unwrap()));
+        assert_eq!(directory.address_of(home(0)), Some("[::ffff:127.0.0.1]:7400".parse().unwrap()));
         assert_eq!(directory.address_of(home(1)), None);
         assert_eq!(directory.entity_at("[::1]:7499".parse().unwrap()), Some(COMPUTER));
         assert_eq!(directory.entity_at("[::1]:7400".parse().unwrap()), None);
-        assert_eq!(directory.entity_at("[::ffff:127.0.0.1]:7400".parse().unwrap()), Some(home(0)));
+        assert_eq!(directory.entity_at("127.0.0.1:7400".parse().unwrap()), Some(home(0)));
         assert_eq!(read(&ron::to_string(&directory).unwrap()), directory);
         assert!(
             ron::from_str::<Directory>(r#"{"guest": "127.0.0.1:1"}"#)
@@ -229,6 +234,7 @@ mod tests {
             (r#"{"home": "127.0.0.1:7400"}"#, "groups"),
             (r#"{"everybody": "127.0.0.1:7400"}"#, "groups"),
             (r#"{"home 0": "127.0.0.1:0"}"#, "port"),
+            (r#"{"home 0": "127.0.0.1:7400", "home 1": "[::1]:7401"}"#, "that of home 0, 127.0.0.1:7400"),
             (r#"{"home 0": "0.0.0.0:7400"}"#, "one machine"),
             (r#"{"home 0": "224.0.0.1:7400"}"#, "one machine"),
             (r#"{"home 0": "255.255.255.255:7400"}"#, "one machine"),
