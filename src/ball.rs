@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::clock::Clock;
+use crate::data::{Bound, Fault, first_fault};
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
 use crate::physics::{Bodies, step};
@@ -63,21 +64,17 @@ pub struct BallKind {
 
 impl BallKind {
     /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        let values = [
-            ("radius", self.radius, true),
-            ("mass", self.mass, true),
-            ("rolling", self.rolling, true),
-            ("sliding", self.sliding, true),
-            ("inertia", self.inertia, true),
-            ("friction", self.friction, false),
-            ("restitution", self.restitution, false),
-            ("wander", self.wander, false),
-        ];
-        values.into_iter().find_map(|(field, value, positive)| {
-            let sound = value.is_finite() && if positive { value > 0.0 } else { value >= 0.0 };
-            (!sound).then(|| (field, format!("{value} is out of range")))
-        })
+    pub fn fault(&self) -> Option<Fault> {
+        first_fault([
+            ("radius", self.radius, Bound::SIZE.positive()),
+            ("mass", self.mass, Bound::MASS.positive()),
+            ("rolling", self.rolling, Bound::ACCELERATION.positive()),
+            ("sliding", self.sliding, Bound::ACCELERATION.positive()),
+            ("inertia", self.inertia, Bound::COEFFICIENT.positive()),
+            ("friction", self.friction, Bound::COEFFICIENT),
+            ("restitution", self.restitution, Bound::SHARE),
+            ("wander", self.wander, Bound::ANGLE),
+        ])
     }
 }
 

@@ -1,48 +1,136 @@
-//! The bounds that the numbers in a file keep.
+//! The bounds of the numbers that a file, an option or a hand brings in: wide enough for every real use, and such that a match
+//! computes safely with whatever lies within.
 
-/// A field's path, and what is wrong with its value.
-pub type Fault = (&'static str, String);
+use std::ops::RangeInclusive;
 
-/// What a number must be like, besides finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
-    Positive,
-    AtLeast0,
-    /// Between 0 and 1.
-    Share,
+use bevy::math::Vec2;
+
+/// A field's path, and what is wrong with its value. A step of the path that is a number is a place in a list.
+pub type Fault = (String, String);
+
+/// The least and the greatest value that a number may have, and its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    least: f32,
+    most: f32,
+    unit: &'static str,
 }
 
-/// The first number that is out of its bounds.
-pub fn first_fault(fields: impl IntoIterator<Item = (&'static str, f32, Bound)>) -> Option<Fault> {
-    fields.into_iter().find_map(|(field, value, bound)| {
-        let (sound, rule) = match bound {
-            Bound::Positive => (value > 0.0, "a positive number"),
-            Bound::AtLeast0 => (value >= 0.0, "at least 0"),
-            Bound::Share => ((0.0..=1.0).contains(&value), "between 0 and 1"),
+/// What positive numbers are at least, in their units.
+const SMALLEST: f32 = 0.001;
+
+impl Bound {
+    pub const SHARE: Bound = Bound::up_to(1.0, "");
+    /// When something happens or how long it takes: a day.
+    pub const SECONDS: Bound = Bound::up_to(86_400.0, " s");
+    /// A day.
+    pub const MINUTES: Bound = Bound::up_to(1440.0, " min");
+    /// By how much something comes late.
+    pub const DELAY: Bound = Bound::up_to(600.0, " s");
+    /// Times a second.
+    pub const RATE: Bound = Bound::up_to(1000.0, " Hz");
+    /// Between two things.
+    pub const LENGTH: Bound = Bound::up_to(1000.0, " m");
+    /// A coordinate.
+    pub const PLACE: Bound = Bound::LENGTH.signed();
+    /// Of a body or of a part of it.
+    pub const SIZE: Bound = Bound::up_to(2.0, " m");
+    /// Of a corner of a body.
+    pub const CORNER: Bound = Bound::SIZE.signed();
+    /// Length or width of a pitch.
+    pub const PITCH: Bound = Bound { least: 1.0, most: 200.0, unit: " m" };
+    pub const SPEED: Bound = Bound::up_to(50.0, " m/s");
+    /// Of one coordinate.
+    pub const VELOCITY: Bound = Bound::SPEED.signed();
+    pub const ACCELERATION: Bound = Bound::up_to(1000.0, " m/s²");
+    pub const ANGLE: Bound = Bound::up_to(360.0, "°");
+    pub const HEADING: Bound = Bound::ANGLE.signed();
+    pub const TURN_RATE: Bound = Bound::up_to(3600.0, "°/s");
+    pub const TURN_ACCELERATION: Bound = Bound::up_to(100_000.0, "°/s²");
+    pub const MASS: Bound = Bound::up_to(1000.0, " kg");
+    pub const FORCE: Bound = Bound::up_to(10_000.0, " N");
+    pub const STIFFNESS: Bound = Bound::up_to(100_000.0, " N/m");
+    pub const DAMPING: Bound = Bound::up_to(10_000.0, " N·s/m");
+    /// Per second.
+    pub const GAIN: Bound = Bound::up_to(1000.0, "/s");
+    /// Of friction and the like.
+    pub const COEFFICIENT: Bound = Bound::up_to(10.0, "");
+    /// What something else is multiplied with, or compared with without a unit.
+    pub const FACTOR: Bound = Bound::up_to(1000.0, "");
+    pub const WEIGHT: Bound = Bound::FACTOR.signed();
+    pub const BYTES: Bound = Bound::up_to(1e9, " bytes");
+
+    const fn up_to(most: f32, unit: &'static str) -> Bound {
+        Bound { least: 0.0, most, unit }
+    }
+
+    /// The same bound without 0 and what is hardly more.
+    pub const fn positive(self) -> Bound {
+        Bound { least: SMALLEST, ..self }
+    }
+
+    /// The same bound on both sides of 0.
+    pub const fn signed(self) -> Bound {
+        Bound { least: -self.most, ..self }
+    }
+
+    pub fn holds(self, value: f32) -> bool {
+        (self.least..=self.most).contains(&value)
+    }
+
+    /// What is wrong with a value, in words.
+    pub fn fault(self, value: f32) -> Option<String> {
+        let Bound { least, most, unit } = self;
+        let rule = if value > most {
+            format!("at most {}{unit}", written(most))
+        } else if value < least {
+            format!("at least {}{unit}", written(least))
+        } else if value.is_nan() {
+            "a number".to_owned()
+        } else {
+            return None;
         };
-        (!(sound && value.is_finite())).then(|| (field, format!("must be {rule}, not {value}")))
-    })
+        Some(format!("must be {rule}, not {}", written(value)))
+    }
+
+    /// The value within the bound that is nearest; what is no number becomes the one nearest to 0.
+    pub fn clamp(self, value: f32) -> f32 {
+        if value.is_nan() { self.clamp(0.0) } else { value.clamp(self.least, self.most) }
+    }
+
+    /// A vector with both coordinates within the bound.
+    pub fn clamp_vector(self, vector: Vec2) -> Vec2 {
+        Vec2::new(self.clamp(vector.x), self.clamp(vector.y))
+    }
 }
 
-/// The fields of a preset with their values, by what they must be like.
-#[derive(Clone, Debug, Default)]
-pub struct Bounds {
-    pub positive: Vec<(&'static str, f32)>,
-    pub at_least_0: Vec<(&'static str, f32)>,
-    pub shares: Vec<(&'static str, f32)>,
+/// A number as people write it: `1e30` instead of thirty zeros.
+fn written(value: f32) -> String {
+    let plain = value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
 }
 
-impl Bounds {
-    /// The first field out of its bounds: first the positive ones, then those of at least 0, then the shares.
-    pub fn fault(self) -> Option<Fault> {
-        let bound = |list: Vec<(&'static str, f32)>, bound| {
-            list.into_iter().map(move |(field, value)| (field, value, bound))
-        };
-        first_fault(
-            bound(self.positive, Bound::Positive)
-                .chain(bound(self.at_least_0, Bound::AtLeast0))
-                .chain(bound(self.shares, Bound::Share)),
-        )
+/// The first number that is out of its bound.
+pub fn first_fault<N: Into<String>>(fields: impl IntoIterator<Item = (N, f32, Bound)>) -> Option<Fault> {
+    fields.into_iter().find_map(|(field, value, bound)| Some((field.into(), bound.fault(value)?)))
+}
+
+/// The first coordinate in a list of points that is out of a bound.
+pub fn points_fault(field: &str, points: &[Vec2], bound: Bound) -> Option<Fault> {
+    let coordinates = points.iter().enumerate().flat_map(|(index, point)| {
+        [(0, point.x), (1, point.y)].map(|(axis, value)| (format!("{field}.{index}.{axis}"), value, bound))
+    });
+    first_fault(coordinates)
+}
+
+/// What is wrong with a whole number, in words.
+pub fn count_fault(count: usize, within: RangeInclusive<usize>) -> Option<String> {
+    if count > *within.end() {
+        Some(format!("must be at most {}, not {count}", within.end()))
+    } else if count < *within.start() {
+        Some(format!("must be at least {}, not {count}", within.start()))
+    } else {
+        None
     }
 }
 
@@ -51,17 +139,45 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_number_out_of_its_bounds_is_named_with_its_rule() {
-        let bounds = |positive, at_least_0, share| Bounds {
-            positive: vec![("a", positive)],
-            at_least_0: vec![("b", at_least_0)],
-            shares: vec![("c", share)],
-        };
-        assert_eq!(bounds(1.0, 0.0, 1.0).fault(), None);
-        assert_eq!(bounds(0.0, -1.0, 2.0).fault(), Some(("a", "must be a positive number, not 0".into())));
-        assert_eq!(bounds(1.0, -1.0, 2.0).fault(), Some(("b", "must be at least 0, not -1".into())));
-        assert_eq!(bounds(1.0, 0.0, 2.0).fault(), Some(("c", "must be between 0 and 1, not 2".into())));
-        assert_eq!(bounds(f32::INFINITY, 0.0, 0.0).fault().map(|fault| fault.0), Some("a"));
-        assert_eq!(bounds(1.0, f32::NAN, 0.0).fault().map(|fault| fault.0), Some("b"));
+    fn the_side_of_a_bound_that_is_passed_is_named_with_its_unit() {
+        let seconds = Bound::SECONDS;
+        assert_eq!(seconds.fault(0.0), None);
+        assert_eq!(seconds.fault(86_400.0), None);
+        assert_eq!(seconds.fault(1e30).unwrap(), "must be at most 86400 s, not 1e30");
+        assert_eq!(seconds.fault(f32::INFINITY).unwrap(), "must be at most 86400 s, not inf");
+        assert_eq!(seconds.fault(-1.5).unwrap(), "must be at least 0 s, not -1.5");
+        assert_eq!(seconds.fault(f32::NAN).unwrap(), "must be a number, not NaN");
+        assert_eq!(seconds.positive().fault(0.0).unwrap(), "must be at least 0.001 s, not 0");
+        assert_eq!(seconds.positive().fault(1e-30).unwrap(), "must be at least 0.001 s, not 1e-30");
+        assert_eq!(Bound::PLACE.fault(-1000.5).unwrap(), "must be at least -1000 m, not -1000.5");
+        assert_eq!(Bound::SHARE.fault(2.0).unwrap(), "must be at most 1, not 2");
+    }
+
+    #[test]
+    fn the_first_number_out_of_its_bounds_is_named() {
+        let fields = |a, b| [("a", a, Bound::SHARE), ("b", b, Bound::LENGTH.positive())];
+        assert_eq!(first_fault(fields(1.0, 2.0)), None);
+        assert_eq!(first_fault(fields(1.0, 0.0)).unwrap().0, "b");
+        assert_eq!(
+            first_fault(fields(-1.0, 0.0)).unwrap(),
+            ("a".into(), "must be at least 0, not -1".into())
+        );
+    }
+
+    #[test]
+    fn what_is_clamped_is_within_the_bound() {
+        for bound in [Bound::SHARE, Bound::PLACE, Bound::MASS.positive()] {
+            for value in [0.0, -1e30, 1e30, f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.5] {
+                assert!(bound.holds(bound.clamp(value)), "{bound:?} {value}");
+            }
+        }
+        assert_eq!(Bound::VELOCITY.clamp_vector(Vec2::new(1.0, -1e9)), Vec2::new(1.0, -50.0));
+    }
+
+    #[test]
+    fn counts_have_bounds_too() {
+        assert_eq!(count_fault(1, 1..=9), None);
+        assert_eq!(count_fault(0, 1..=9).unwrap(), "must be at least 1, not 0");
+        assert_eq!(count_fault(10, 1..=9).unwrap(), "must be at most 9, not 10");
     }
 }

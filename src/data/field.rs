@@ -37,6 +37,15 @@ impl Field {
         self.with(Segment::Index(index))
     }
 
+    /// The value that a path such as `a.b.2` leads to from here: the third in the list `b` of `a`.
+    #[must_use]
+    pub fn dotted(&self, path: &str) -> Field {
+        path.split('.').fold(self.clone(), |field, step| match step.parse() {
+            Ok(index) => field.index(index),
+            Err(_) => field.key(step),
+        })
+    }
+
     /// Whether this is the value of the whole file.
     pub fn is_root(&self) -> bool {
         self.segments.is_empty()
@@ -114,6 +123,12 @@ mod tests {
     fn keys_are_joined_with_dots_and_indices_stand_in_brackets() {
         let field = Field::root().key("spots").index(3).key("x").index(0).index(1);
         assert_eq!(field.to_string(), "spots[3].x[0][1]");
+    }
+
+    #[test]
+    fn a_dotted_path_leads_through_structs_and_lists() {
+        let field = Field::root().key("home").dotted("players.2.at.0");
+        assert_eq!(field.to_string(), "home.players[2].at[0]");
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod scan;
 mod source;
 mod words;
 
-pub use bounds::{Bound, Bounds, Fault, first_fault};
+pub use bounds::{Bound, Fault, count_fault, first_fault, points_fault};
 pub use error::{DataError, in_one_line, no_such};
 pub use field::{Field, Segment};
 pub use folder::AssetFolder;

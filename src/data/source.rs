@@ -6,10 +6,12 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use bevy::math::Vec2;
 use ron::error::{Error as RonError, SpannedError};
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 
+use super::bounds::Bound;
 use super::error::DataError;
 use super::field::Field;
 use super::folder::names_in;
@@ -83,17 +85,23 @@ impl Source {
         }
     }
 
-    /// The number, unless it is infinite or not a number, both of which RON can write.
+    /// Checks a number of the parsed value.
     ///
     /// # Errors
     ///
-    /// If it is not finite.
-    pub fn finite(&self, field: &Field, number: f32) -> Result<f32, DataError> {
-        if number.is_finite() {
-            Ok(number)
-        } else {
-            Err(self.error_at(field, format!("expected a finite number, not {number}")))
-        }
+    /// If it is out of its bound.
+    pub fn within(&self, field: &Field, number: f32, bound: Bound) -> Result<(), DataError> {
+        bound.fault(number).map_or(Ok(()), |message| Err(self.error_at(field, message)))
+    }
+
+    /// Checks both coordinates of a vector of the parsed value.
+    ///
+    /// # Errors
+    ///
+    /// If one is out of its bound.
+    pub fn vector_within(&self, field: &Field, vector: Vec2, bound: Bound) -> Result<(), DataError> {
+        self.within(&field.index(0), vector.x, bound)?;
+        self.within(&field.index(1), vector.y, bound)
     }
 
     /// Puts an error of ron into our words. Ron knows the token it read last and the one it stands at; for an error
@@ -285,9 +293,12 @@ mod tests {
     fn errors_found_after_parsing_point_at_the_value() {
         let source = Source::new("x.ron", "(\n  // ]\n  spots: [(1, 2), (3, NaN)],\n)");
         let field = Field::root().key("spots").index(1).index(1);
-        let error = source.finite(&field, f32::NAN).unwrap_err();
-        assert_eq!(error.to_string(), "x.ron:3:23: spots[1][1]: expected a finite number, not NaN");
-        assert_eq!(source.finite(&field, 1.5), Ok(1.5));
+        let error = source.within(&field, f32::NAN, Bound::PLACE).unwrap_err();
+        assert_eq!(error.to_string(), "x.ron:3:23: spots[1][1]: must be a number, not NaN");
+        let spot = Field::root().key("spots").index(1);
+        let error = source.vector_within(&spot, Vec2::new(3.0, f32::NAN), Bound::PLACE).unwrap_err();
+        assert_eq!(error.field, field);
+        assert_eq!(source.within(&field, 1.5, Bound::PLACE), Ok(()));
         let lost = source.error_at(&Field::root().key("walls"), "there are no walls");
         assert_eq!(lost.to_string(), "x.ron:1:1: walls: there are no walls");
     }

@@ -15,7 +15,9 @@ pub(super) fn in_words(error: RonError, rest: &str) -> String {
         RonError::MissingStructField { field, .. } => format!("the field `{field}` is missing"),
         RonError::DuplicateStructField { field, .. } => format!("the field `{field}` is given twice"),
         RonError::ExpectedFloat => "expected a number".to_owned(),
-        RonError::ExpectedInteger => "expected a whole number".to_owned(),
+        RonError::ExpectedInteger | RonError::InvalidIntegerDigit { .. } => {
+            "expected a whole number".to_owned()
+        }
         RonError::ExpectedBoolean => "expected true or false".to_owned(),
         RonError::ExpectedString => "expected a string in quotes".to_owned(),
         RonError::ExpectedStringEnd => "this string is never closed".to_owned(),

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::situation::Situation;
 use crate::ball::BallKind;
-use crate::data::{AssetFolder, DataError, Field, Source, no_such};
+use crate::data::{AssetFolder, DataError, Fault, Field, Source, no_such};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
 use crate::radio::{FaultRule, Radio};
@@ -129,7 +129,7 @@ impl MatchPlan {
         let rules_fault = file.rules.fault().map(|(field, message)| (format!("rules.{field}"), message));
         let tcm_fault = file.tcm.fault().map(|(field, message)| (format!("tcm.{field}"), message));
         if let Some((field, message)) = ball_fault.or(rules_fault).or(tcm_fault) {
-            return Err(source.error_at(&dotted(&field), message));
+            return Err(source.error_at(&Field::root().dotted(&field), message));
         }
         if choice.wires.league_ports.is_some() {
             file.tcm.datagram = file.tcm.datagram.min(choice.wires.version.longest_message());
@@ -267,17 +267,12 @@ fn read_addresses(path: &Path) -> Result<Directory, DataError> {
 /// Reads a file whose type checks its own numbers.
 pub(crate) fn checked<T: DeserializeOwned>(
     path: &Path,
-    fault: impl Fn(&T) -> Option<(&'static str, String)>,
+    fault: impl Fn(&T) -> Option<Fault>,
 ) -> Result<T, DataError> {
     let source = Source::read(path)?;
     let value: T = source.parse()?;
     match fault(&value) {
-        Some((field, message)) => Err(source.error_at(&dotted(field), message)),
+        Some((field, message)) => Err(source.error_at(&Field::root().dotted(&field), message)),
         None => Ok(value),
     }
-}
-
-/// `a.b` as a field.
-pub(crate) fn dotted(path: &str) -> Field {
-    path.split('.').fold(Field::root(), |field, key| field.key(key))
 }

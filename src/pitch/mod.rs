@@ -5,6 +5,7 @@
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::data::{Bound, Fault, count_fault, first_fault, points_fault};
 use crate::geometry::Zone;
 
 /// A pitch, read from `assets/pitches/*.ron`.
@@ -90,51 +91,61 @@ impl Pitch {
     }
 
     /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound pitch.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        let positive = [
-            ("length", self.length),
-            ("width", self.width),
-            ("goal.width", self.goal.width),
-            ("goal.depth", self.goal.depth),
-            ("penalty_area.depth", self.penalty_area.depth),
-            ("penalty_area.width", self.penalty_area.width),
-            ("centre_circle_radius", self.centre_circle_radius),
-            ("walls.thickness", self.walls.thickness),
-        ];
-        for (field, value) in positive {
-            if !(value.is_finite() && value > 0.0) {
-                return Some((field, format!("must be a positive number of metres, not {value}")));
-            }
-        }
-        if self.goal.width >= self.width {
-            return Some((
-                "goal.width",
-                format!("{} m does not fit into a width of {} m", self.goal.width, self.width),
-            ));
-        }
-        let margin = self.walls.margin;
+    pub fn fault(&self) -> Option<Fault> {
+        let numbers = first_fault([
+            ("length", self.length, Bound::PITCH),
+            ("width", self.width, Bound::PITCH),
+            ("goal.width", self.goal.width, Bound::LENGTH.positive()),
+            ("goal.depth", self.goal.depth, Bound::LENGTH.positive()),
+            ("penalty_area.depth", self.penalty_area.depth, Bound::LENGTH.positive()),
+            ("penalty_area.width", self.penalty_area.width, Bound::LENGTH.positive()),
+            ("centre_circle_radius", self.centre_circle_radius, Bound::LENGTH.positive()),
+            ("walls.thickness", self.walls.thickness, Bound::SIZE.positive()),
+            ("walls.friction", self.walls.friction, Bound::COEFFICIENT),
+            ("walls.restitution", self.walls.restitution, Bound::SHARE),
+            ("walls.margin", self.walls.margin, Bound::LENGTH),
+        ]);
+        numbers.or_else(|| self.misfit()).or_else(|| self.spots_fault())
+    }
+
+    /// What does not fit into what.
+    fn misfit(&self) -> Option<Fault> {
+        let fits = |field: &str, own: f32, room: f32| {
+            (own >= room).then(|| (field.to_owned(), format!("{own} m does not fit into {room} m")))
+        };
         let goals_end = self.goal.depth + self.walls.thickness;
-        if margin != 0.0 && !(margin.is_finite() && margin > goals_end) {
-            let reason =
-                format!("must be 0, or more than goals and their walls need, {goals_end} m, not {margin}");
-            return Some(("walls.margin", reason));
+        let margin = self.walls.margin;
+        let is_narrow = margin != 0.0 && margin <= goals_end;
+        fits("goal.width", self.goal.width, self.width)
+            .or_else(|| fits("penalty_area.width", self.penalty_area.width, self.width))
+            .or_else(|| fits("penalty_area.depth", self.penalty_area.depth, self.length / 2.0))
+            .or_else(|| {
+                fits("centre_circle_radius", self.centre_circle_radius, self.half_size().min_element())
+            })
+            .or_else(|| {
+                is_narrow.then(|| {
+                    let need = format!("must be 0, or more than goals and their walls need, {goals_end} m");
+                    ("walls.margin".into(), format!("{need}, not {margin}"))
+                })
+            })
+    }
+
+    fn spots_fault(&self) -> Option<Fault> {
+        let spots = "penalty_spots";
+        if let Some(message) = count_fault(self.penalty_spots.len(), 1..=MOST_SPOTS) {
+            return Some((spots.into(), format!("the number of spots {message}")));
         }
-        if !(0.0..=1.0).contains(&self.walls.restitution) {
-            return Some((
-                "walls.restitution",
-                format!("must lie between 0 and 1, not {}", self.walls.restitution),
-            ));
+        if let Some(fault) = points_fault(spots, &self.penalty_spots, Bound::PLACE) {
+            return Some(fault);
         }
-        if !(self.walls.friction.is_finite() && self.walls.friction >= 0.0) {
-            return Some(("walls.friction", format!("must not be negative, but is {}", self.walls.friction)));
-        }
-        if self.penalty_spots.is_empty() {
-            return Some(("penalty_spots", "needs at least one spot".into()));
-        }
-        let outside = self.penalty_spots.iter().find(|spot| !spot.abs().cmplt(self.half_size()).all());
-        outside.map(|spot| ("penalty_spots", format!("({}, {}) is outside the pitch", spot.x, spot.y)))
+        let is_outside = |spot: &Vec2| !spot.abs().cmplt(self.half_size()).all();
+        let (number, spot) = self.penalty_spots.iter().enumerate().find(|(_, spot)| is_outside(spot))?;
+        Some((format!("{spots}.{number}"), format!("({}, {}) is outside the pitch", spot.x, spot.y)))
     }
 }
+
+/// Penalty spots of a pitch.
+const MOST_SPOTS: usize = 1000;
 
 #[cfg(test)]
 mod tests {

@@ -6,6 +6,7 @@ use std::fmt;
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
+use crate::data::{Bound, Fault, first_fault};
 use crate::ids::RobotId;
 
 /// The present interference. The default is none.
@@ -54,15 +55,15 @@ impl Conditions {
     }
 
     /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        if !(0.0..=1.0).contains(&self.extra_loss) {
-            return Some(("extra_loss", format!("must be between 0 and 1, not {}", self.extra_loss)));
-        }
-        if !(self.extra_delay.is_finite() && self.extra_delay >= 0.0) {
-            return Some(("extra_delay", format!("must be at least 0, not {}", self.extra_delay)));
-        }
-        let id = self.partitions.iter().find_map(|p| p.one.intersection(&p.other).next())?;
-        Some(("partitions", format!("{id} cannot be on both sides")))
+    pub fn fault(&self) -> Option<Fault> {
+        let numbers = first_fault([
+            ("extra_loss", self.extra_loss, Bound::SHARE),
+            ("extra_delay", self.extra_delay, Bound::DELAY),
+        ]);
+        numbers.or_else(|| {
+            let id = self.partitions.iter().find_map(|p| p.one.intersection(&p.other).next())?;
+            Some(("partitions".into(), format!("{id} cannot be on both sides")))
+        })
     }
 }
 
@@ -142,7 +143,7 @@ mod tests {
         assert_eq!(Conditions { extra_delay: -1.0, ..none.clone() }.fault().unwrap().0, "extra_delay");
         let torn = Partition { other: [home(0)].into(), ..wall() };
         let (field, reason) = Conditions { partitions: vec![torn], ..none }.fault().unwrap();
-        assert_eq!((field, reason.as_str()), ("partitions", "home 0 cannot be on both sides"));
+        assert_eq!((field.as_str(), reason.as_str()), ("partitions", "home 0 cannot be on both sides"));
     }
 
     #[test]

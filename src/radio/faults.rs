@@ -3,13 +3,12 @@
 //! A rule counts packets, and a packet is one delivery to one receiver: a message to three team mates is three packets,
 //! counted in the order of their sending. Times are seconds of the match.
 
-use std::cmp::Ordering;
-
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::packet::Packet;
+use crate::data::{Bound, Fault, first_fault};
 use crate::ids::RobotId;
 use crate::messages::MessageKind;
 
@@ -93,20 +92,27 @@ impl FaultRule {
     }
 
     /// What is wrong with the rule, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
+    pub fn fault(&self) -> Option<Fault> {
         if let Which::Nth(0) | Which::From(0) = self.which {
-            return Some(("which", "packets are counted from 1".to_owned()));
+            return Some(("which".into(), "packets are counted from 1".into()));
         }
-        if let Some((from, until)) = self.between
-            && from.partial_cmp(&until) != Some(Ordering::Less)
-        {
-            return Some(("between", format!("must end after its start, not go from {from} to {until}")));
+        if let Some((from, until)) = self.between {
+            let start = Bound::SECONDS.fault(from).map(|message| ("between.0".into(), message));
+            let end = || {
+                let message = Bound::SECONDS.fault(until).filter(|_| until != f32::INFINITY)?;
+                Some(("between.1".into(), message))
+            };
+            let order = || {
+                let message = || format!("must end after its start, not go from {from} to {until}");
+                (from >= until).then(|| ("between".into(), message()))
+            };
+            if let Some(fault) = start.or_else(end).or_else(order) {
+                return Some(fault);
+            }
         }
         match self.act {
-            Act::Delay(seconds) | Act::Duplicate(seconds) if !(seconds.is_finite() && seconds >= 0.0) => {
-                Some(("act", format!("must be at least 0 seconds, not {seconds}")))
-            }
-            _ => None,
+            Act::Delay(seconds) | Act::Duplicate(seconds) => first_fault([("act", seconds, Bound::SECONDS)]),
+            Act::Drop => None,
         }
     }
 }
@@ -259,13 +265,16 @@ mod tests {
 
     #[test]
     fn a_senseless_rule_is_named_with_its_field() {
-        let fault = |text| rule(text).fault().map(|(field, _)| field);
-        assert_eq!(fault("(which: Nth(1), between: (0.0, 1.0), act: Delay(0.0))"), None);
-        assert_eq!(fault("(which: Nth(0), act: Drop)"), Some("which"));
-        assert_eq!(fault("(which: From(0), act: Drop)"), Some("which"));
-        assert_eq!(fault("(between: (2.0, 2.0), act: Drop)"), Some("between"));
-        assert_eq!(fault("(between: (NaN, 2.0), act: Drop)"), Some("between"));
-        assert_eq!(fault("(act: Delay(-1.0))"), Some("act"));
-        assert_eq!(fault("(act: Duplicate(inf))"), Some("act"));
+        let field = |text| rule(text).fault().map(|(field, _)| field);
+        assert_eq!(field("(which: Nth(1), between: (0.0, 1.0), act: Delay(0.0))"), None);
+        assert_eq!(field("(which: Nth(0), act: Drop)").as_deref(), Some("which"));
+        assert_eq!(field("(which: From(0), act: Drop)").as_deref(), Some("which"));
+        assert_eq!(field("(between: (2.0, 2.0), act: Drop)").as_deref(), Some("between"));
+        assert_eq!(field("(between: (NaN, 2.0), act: Drop)").as_deref(), Some("between.0"));
+        assert_eq!(field("(between: (1.0, inf), act: Drop)"), None);
+        assert_eq!(field("(between: (1.0, 1e30), act: Drop)").as_deref(), Some("between.1"));
+        assert_eq!(field("(act: Delay(1e30))").as_deref(), Some("act"));
+        assert_eq!(field("(act: Delay(-1.0))").as_deref(), Some("act"));
+        assert_eq!(field("(act: Duplicate(inf))").as_deref(), Some("act"));
     }
 }

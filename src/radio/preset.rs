@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::Bounds;
+use crate::data::{Bound, Fault, first_fault};
 
 /// The radio that the robots of a match share.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -155,35 +155,39 @@ impl LossModel {
 
 impl Radio {
     /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        let mut at_least_0 =
-            vec![("latency.fixed", self.latency.fixed), ("latency.jitter", self.latency.jitter)];
-        let mut positive = Vec::new();
-        let mut shares = vec![("duplication", self.duplication)];
+    pub fn fault(&self) -> Option<Fault> {
+        let mut numbers = vec![
+            ("latency.fixed", self.latency.fixed, Bound::DELAY),
+            ("latency.jitter", self.latency.jitter, Bound::DELAY),
+            ("duplication", self.duplication, Bound::SHARE),
+        ];
         match self.loss {
             LossModel::None => {}
-            LossModel::Independent(chance) => shares.push(("loss", chance)),
-            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => shares.extend([
-                ("loss.to_bad", to_bad),
-                ("loss.to_good", to_good),
-                ("loss.loss_in_good", loss_in_good),
-                ("loss.loss_in_bad", loss_in_bad),
+            LossModel::Independent(chance) => numbers.push(("loss", chance, Bound::SHARE)),
+            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => numbers.extend([
+                ("loss.to_bad", to_bad, Bound::SHARE),
+                ("loss.to_good", to_good, Bound::SHARE),
+                ("loss.loss_in_good", loss_in_good, Bound::SHARE),
+                ("loss.loss_in_bad", loss_in_bad, Bound::SHARE),
             ]),
         }
         if let Some(late) = self.late {
-            shares.push(("late.share", late.share));
-            at_least_0.extend([("late.min", late.min), ("late.max", late.max)]);
-        }
-        positive.extend(self.range.map(|range| ("range", range)));
-        if let Some(budget) = self.budget {
-            positive.extend([
-                ("budget.bytes_per_second", budget.bytes_per_second),
-                ("budget.burst", budget.burst),
+            numbers.extend([
+                ("late.share", late.share, Bound::SHARE),
+                ("late.min", late.min, Bound::DELAY),
+                ("late.max", late.max, Bound::DELAY),
             ]);
         }
-        Bounds { positive, at_least_0, shares }.fault().or_else(|| {
+        numbers.extend(self.range.map(|range| ("range", range, Bound::LENGTH.positive())));
+        if let Some(budget) = self.budget {
+            numbers.extend([
+                ("budget.bytes_per_second", budget.bytes_per_second, Bound::BYTES.positive()),
+                ("budget.burst", budget.burst, Bound::BYTES.positive()),
+            ]);
+        }
+        first_fault(numbers).or_else(|| {
             let late = self.late.filter(|late| late.max < late.min)?;
-            Some(("late.max", format!("must be at least late.min, {}, not {}", late.min, late.max)))
+            Some(("late.max".into(), format!("must be at least late.min, {}, not {}", late.min, late.max)))
         })
     }
 }
@@ -203,7 +207,7 @@ mod tests {
         read(include_str!("../../assets/radios/good.ron"))
     }
 
-    fn bad_field(change: impl FnOnce(&mut Radio)) -> &'static str {
+    fn bad_field(change: impl FnOnce(&mut Radio)) -> String {
         let mut radio = good();
         change(&mut radio);
         radio.fault().expect("a fault").0
@@ -265,6 +269,7 @@ mod tests {
         let bucket =
             |bytes_per_second, burst| Some(Budget { bytes_per_second, burst, shared_by: SharedBy::All });
         assert_eq!(bad_field(|r| r.latency.fixed = -0.1), "latency.fixed");
+        assert_eq!(bad_field(|r| r.latency.fixed = 1e30), "latency.fixed");
         assert_eq!(bad_field(|r| r.latency.jitter = f32::NAN), "latency.jitter");
         assert_eq!(bad_field(|r| r.loss = LossModel::Independent(1.5)), "loss");
         assert_eq!(bad_field(|r| r.loss = elliott(-0.1)), "loss.to_bad");

@@ -9,6 +9,8 @@ mod four_legged;
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
+use crate::data::{Bound, Fault, count_fault, first_fault};
+
 pub use four_legged::{
     BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, Stuck, ThrowIn,
 };
@@ -112,59 +114,54 @@ impl RuleBook {
     }
 
     /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound book.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        let (mut positive, mut at_least_zero) = (
-            vec![
-                ("half_minutes", self.half_minutes, "minutes"),
-                ("no_progress_seconds", self.no_progress_seconds, "seconds"),
-                ("no_progress_distance", self.no_progress_distance, "metres"),
-                ("second_defender_seconds", self.second_defender_seconds, "seconds"),
-                ("spot_clearance", self.spot_clearance, "metres"),
-            ],
-            vec![
-                ("ready_seconds", self.ready_seconds, "seconds"),
-                ("set_seconds", self.set_seconds, "seconds"),
-                ("removal_seconds", self.removal_seconds, "seconds"),
-            ],
-        );
+    pub fn fault(&self) -> Option<Fault> {
+        let (seconds, metres) = (Bound::SECONDS, Bound::LENGTH);
+        let mut numbers = vec![
+            ("half_minutes", self.half_minutes, Bound::MINUTES.positive()),
+            ("ready_seconds", self.ready_seconds, seconds),
+            ("set_seconds", self.set_seconds, seconds),
+            ("no_progress_seconds", self.no_progress_seconds, seconds.positive()),
+            ("no_progress_distance", self.no_progress_distance, metres.positive()),
+            ("second_defender_seconds", self.second_defender_seconds, seconds.positive()),
+            ("removal_seconds", self.removal_seconds, seconds),
+            ("spot_clearance", self.spot_clearance, metres.positive()),
+        ];
         if let Some(holding) = &self.ball_holding {
-            positive.extend([
-                ("ball_holding.field_seconds", holding.field_seconds, "seconds"),
-                ("ball_holding.field_distance", holding.field_distance, "metres"),
-                ("ball_holding.keeper_seconds", holding.keeper_seconds, "seconds"),
+            numbers.extend([
+                ("ball_holding.field_seconds", holding.field_seconds, seconds.positive()),
+                ("ball_holding.field_distance", holding.field_distance, metres.positive()),
+                ("ball_holding.keeper_seconds", holding.keeper_seconds, seconds.positive()),
             ]);
         }
         if let Some(pushing) = &self.pushing {
-            positive.push(("pushing.seconds", pushing.seconds, "seconds"));
-            at_least_zero.push(("pushing.exempt_radius", pushing.exempt_radius, "metres"));
+            numbers.extend([
+                ("pushing.seconds", pushing.seconds, seconds.positive()),
+                ("pushing.exempt_radius", pushing.exempt_radius, metres),
+            ]);
         }
         if let Out::ThrowIn(throw_in) = &self.out {
-            at_least_zero.extend([
-                ("out.back", throw_in.back, "metres"),
-                ("out.inside", throw_in.inside, "metres"),
-                ("out.from_end", throw_in.from_end, "metres"),
+            numbers.extend([
+                ("out.back", throw_in.back, metres),
+                ("out.inside", throw_in.inside, metres),
+                ("out.from_end", throw_in.from_end, metres),
             ]);
         }
         if let Stuck::LocalGlobal(stuck) = &self.stuck {
-            positive.extend([
-                ("stuck.local_seconds", stuck.local_seconds, "seconds"),
-                ("stuck.global_seconds", stuck.global_seconds, "seconds"),
+            numbers.extend([
+                ("stuck.local_seconds", stuck.local_seconds, seconds.positive()),
+                ("stuck.global_seconds", stuck.global_seconds, seconds.positive()),
             ]);
         }
-        at_least_zero.extend(self.leaving.map(|beyond| ("leaving", beyond, "metres")));
-        for (field, value, unit) in positive {
-            if !(value.is_finite() && value > 0.0) {
-                return Some((field, format!("must be a positive number of {unit}, not {value}")));
-            }
-        }
-        for (field, value, unit) in at_least_zero {
-            if !(value.is_finite() && value >= 0.0) {
-                return Some((field, format!("must be zero or more {unit}, not {value}")));
-            }
-        }
-        (self.mercy == Some(0)).then(|| ("mercy", "must be a lead of one goal or more, not 0".into()))
+        numbers.extend(self.leaving.map(|beyond| ("leaving", beyond, metres)));
+        first_fault(numbers).or_else(|| {
+            let message = count_fault(self.mercy? as usize, 1..=MOST_GOALS)?;
+            Some(("mercy".into(), format!("the lead {message}")))
+        })
     }
 }
+
+/// Goals of a lead.
+const MOST_GOALS: usize = 1_000_000;
 
 #[cfg(test)]
 mod tests {
@@ -180,10 +177,12 @@ mod tests {
     fn a_bad_number_is_named_with_its_field() {
         let endless = RuleBook { half_minutes: f32::INFINITY, ..RuleBook::default() };
         assert_eq!(endless.fault().unwrap().0, "half_minutes");
+        let a_week = RuleBook { half_minutes: 10_080.0, ..RuleBook::default() };
+        assert_eq!(a_week.fault().unwrap().1, "must be at most 1440 min, not 10080");
         let still = RuleBook { no_progress_distance: 0.0, ..RuleBook::default() };
         let (field, reason) = still.fault().unwrap();
         assert_eq!(field, "no_progress_distance");
-        assert!(reason.contains("positive number of metres"), "{reason}");
+        assert_eq!(reason, "must be at least 0.001 m, not 0");
         let backwards = RuleBook { set_seconds: -1.0, ..RuleBook::default() };
         assert_eq!(backwards.fault().unwrap().0, "set_seconds");
     }

@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::legs::{Chin, Kick, Neck, Walker};
-use crate::data::Bounds;
+use crate::data::{Bound, Fault, count_fault, first_fault, points_fault};
 
 /// One kind of robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -114,41 +114,31 @@ pub struct Scoop {
 
 impl RobotKind {
     /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound robot.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
+    pub fn fault(&self) -> Option<Fault> {
         let parts = [
-            Some(self.body_bounds()),
-            Some(match &self.drive {
-                Drive::Differential(drive) => drive.bounds(),
-                Drive::Walker(walker) => walker.bounds(),
-            }),
-            self.trailer.as_ref().map(TrailerKind::bounds),
-            self.scoop.as_ref().map(Scoop::bounds),
-            self.neck.as_ref().map(Neck::bounds),
-            self.chin.as_ref().map(Chin::bounds),
+            self.body_fault(),
+            match &self.drive {
+                Drive::Differential(drive) => drive.fault(),
+                Drive::Walker(walker) => walker.fault(),
+            },
+            self.trailer.as_ref().and_then(TrailerKind::fault),
+            self.scoop.as_ref().and_then(Scoop::fault),
+            self.neck.as_ref().and_then(Neck::fault),
+            self.chin.as_ref().and_then(Chin::fault),
         ];
-        let kicks = self.kicks.values().map(Kick::bounds);
-        let fault = parts.into_iter().flatten().chain(kicks).find_map(Bounds::fault);
-        fault.or_else(|| {
-            let outline = &self.trailer.as_ref()?.outline;
-            (outline.len() < 3 || outline.iter().any(|corner| !corner.is_finite()))
-                .then(|| ("trailer.outline", "needs at least three corners, all of them finite".into()))
-        })
+        let kicks = self.kicks.iter().filter_map(|(name, kick)| kick.fault(name));
+        parts.into_iter().flatten().chain(kicks).next()
     }
 
-    fn body_bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![
-                ("control_hz", self.control_hz),
-                ("body.length", self.body.length),
-                ("body.width", self.body.width),
-                ("body.mass", self.body.mass),
-            ],
-            at_least_0: vec![
-                ("body.friction", self.body.friction),
-                ("body.restitution", self.body.restitution),
-            ],
-            shares: vec![],
-        }
+    fn body_fault(&self) -> Option<Fault> {
+        first_fault([
+            ("control_hz", self.control_hz, Bound::RATE.positive()),
+            ("body.length", self.body.length, Bound::SIZE.positive()),
+            ("body.width", self.body.width, Bound::SIZE.positive()),
+            ("body.mass", self.body.mass, Bound::MASS.positive()),
+            ("body.friction", self.body.friction, Bound::COEFFICIENT),
+            ("body.restitution", self.body.restitution, Bound::SHARE),
+        ])
     }
 
     /// The radius of a circle around the drive unit that holds body and jaws, m.
@@ -175,54 +165,65 @@ impl RobotKind {
 }
 
 impl DifferentialDrive {
-    fn bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![
-                ("drive.track", self.track),
-                ("drive.max_speed", self.max_speed),
-                ("drive.acceleration", self.acceleration),
-                ("drive.wheel_force", self.wheel_force),
-                ("drive.grip", self.grip),
-                ("drive.turn_gain", self.turn_gain),
-                ("drive.turn_rate", self.turn_rate),
-            ],
-            at_least_0: vec![("drive.dead_band", self.dead_band)],
-            shares: vec![],
-        }
+    fn fault(&self) -> Option<Fault> {
+        first_fault([
+            ("drive.track", self.track, Bound::SIZE.positive()),
+            ("drive.max_speed", self.max_speed, Bound::SPEED.positive()),
+            ("drive.acceleration", self.acceleration, Bound::ACCELERATION.positive()),
+            ("drive.wheel_force", self.wheel_force, Bound::FORCE.positive()),
+            ("drive.grip", self.grip, Bound::COEFFICIENT.positive()),
+            ("drive.turn_gain", self.turn_gain, Bound::GAIN.positive()),
+            ("drive.turn_rate", self.turn_rate, Bound::TURN_RATE.positive()),
+            ("drive.dead_band", self.dead_band, Bound::ANGLE),
+        ])
     }
 }
 
 impl TrailerKind {
-    fn bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![("trailer.mass", self.mass), ("trailer.axle", self.axle)],
-            at_least_0: vec![
-                ("trailer.grip", self.grip),
-                ("trailer.rolling", self.rolling),
-                ("trailer.friction", self.friction),
-                ("trailer.restitution", self.restitution),
-            ],
-            shares: vec![],
+    fn fault(&self) -> Option<Fault> {
+        let numbers = first_fault([
+            ("trailer.mass", self.mass, Bound::MASS.positive()),
+            ("trailer.axle", self.axle, Bound::SIZE.positive()),
+            ("trailer.grip", self.grip, Bound::COEFFICIENT),
+            ("trailer.rolling", self.rolling, Bound::COEFFICIENT),
+            ("trailer.friction", self.friction, Bound::COEFFICIENT),
+            ("trailer.restitution", self.restitution, Bound::SHARE),
+        ]);
+        numbers.or_else(|| self.outline_fault())
+    }
+
+    fn outline_fault(&self) -> Option<Fault> {
+        let outline = "trailer.outline";
+        if let Some(message) = count_fault(self.outline.len(), 3..=MOST_CORNERS) {
+            return Some((outline.into(), format!("the number of corners {message}")));
         }
+        points_fault(outline, &self.outline, Bound::CORNER).or_else(|| {
+            let spread = |from: Vec2| {
+                let ways = self.outline.iter().map(|corner| *corner - from);
+                ways.map(|way| way.perp_dot(self.outline[1] - from).abs()).fold(0.0, f32::max)
+            };
+            let is_flat = spread(self.outline[0]) < LEAST_AREA;
+            is_flat.then(|| (outline.into(), "its corners lie on one line, or nearly so".into()))
+        })
     }
 }
 
+/// Corners of a trailer.
+const MOST_CORNERS: usize = 64;
+/// What a trailer covers, m².
+const LEAST_AREA: f32 = 1e-4;
+
 impl Scoop {
-    fn bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![
-                ("scoop.depth", self.depth),
-                ("scoop.half_gap", self.half_gap),
-                ("scoop.jaw", self.jaw),
-            ],
-            at_least_0: vec![
-                ("scoop.hold_force", self.hold_force),
-                ("scoop.hold_stiffness", self.hold_stiffness),
-                ("scoop.hold_damping", self.hold_damping),
-                ("scoop.hold_reach", self.hold_reach),
-                ("scoop.hold_half_width", self.hold_half_width),
-            ],
-            shares: vec![],
-        }
+    fn fault(&self) -> Option<Fault> {
+        first_fault([
+            ("scoop.depth", self.depth, Bound::SIZE.positive()),
+            ("scoop.half_gap", self.half_gap, Bound::SIZE.positive()),
+            ("scoop.jaw", self.jaw, Bound::SIZE.positive()),
+            ("scoop.hold_force", self.hold_force, Bound::FORCE),
+            ("scoop.hold_stiffness", self.hold_stiffness, Bound::STIFFNESS),
+            ("scoop.hold_damping", self.hold_damping, Bound::DAMPING),
+            ("scoop.hold_reach", self.hold_reach, Bound::SIZE),
+            ("scoop.hold_half_width", self.hold_half_width, Bound::SIZE),
+        ])
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::Bounds;
+use crate::data::{Bound, Fault, first_fault};
 
 /// An omnidirectional gait.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,62 +95,63 @@ pub struct Kick {
 }
 
 impl Walker {
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![
-                ("drive.ahead", self.ahead),
-                ("drive.back", self.back),
-                ("drive.aside", self.aside),
-                ("drive.turn", self.turn),
-                ("drive.acceleration", self.acceleration),
-                ("drive.turn_acceleration", self.turn_acceleration),
-                ("drive.push", self.push),
-                ("drive.turn_gain", self.turn_gain),
-                ("drive.noise.step", self.noise.step),
-            ],
-            at_least_0: vec![
-                ("drive.noise.share", self.noise.share),
-                ("drive.noise.drift", self.noise.drift),
-                ("drive.noise.turn", self.noise.turn),
-            ],
-            shares: vec![],
-        }
+    pub(super) fn fault(&self) -> Option<Fault> {
+        first_fault([
+            ("drive.ahead", self.ahead, Bound::SPEED.positive()),
+            ("drive.back", self.back, Bound::SPEED.positive()),
+            ("drive.aside", self.aside, Bound::SPEED.positive()),
+            ("drive.turn", self.turn, Bound::TURN_RATE.positive()),
+            ("drive.acceleration", self.acceleration, Bound::ACCELERATION.positive()),
+            ("drive.turn_acceleration", self.turn_acceleration, Bound::TURN_ACCELERATION.positive()),
+            ("drive.push", self.push, Bound::FORCE.positive()),
+            ("drive.turn_gain", self.turn_gain, Bound::GAIN.positive()),
+            ("drive.noise.step", self.noise.step, Bound::SECONDS.positive()),
+            ("drive.noise.share", self.noise.share, Bound::COEFFICIENT),
+            ("drive.noise.drift", self.noise.drift, Bound::SPEED),
+            ("drive.noise.turn", self.noise.turn, Bound::TURN_RATE),
+        ])
     }
 }
 
 impl Neck {
-    pub(super) fn bounds(&self) -> Bounds {
-        let positive = vec![("neck.pan", self.pan), ("neck.speed", self.speed), ("neck.scan", self.scan)];
-        Bounds { positive, ..Bounds::default() }
+    pub(super) fn fault(&self) -> Option<Fault> {
+        first_fault([
+            ("neck.pan", self.pan, Bound::ANGLE.positive()),
+            ("neck.speed", self.speed, Bound::TURN_RATE.positive()),
+            ("neck.scan", self.scan, Bound::TURN_RATE.positive()),
+        ])
     }
 }
 
 impl Chin {
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![
-                ("chin.half_width", self.half_width),
-                ("chin.speed", self.speed),
-                ("chin.force", self.force),
-                ("chin.turn", self.turn),
-                ("chin.reach", self.reach.1 - self.reach.0),
-            ],
-            at_least_0: vec![("chin.time", self.time), ("chin.reach", self.reach.0)],
-            shares: vec![("chin.success", self.success), ("chin.walk", self.walk)],
-        }
+    pub(super) fn fault(&self) -> Option<Fault> {
+        let numbers = first_fault([
+            ("chin.reach.0", self.reach.0, Bound::SIZE),
+            ("chin.reach.1", self.reach.1, Bound::SIZE),
+            ("chin.half_width", self.half_width, Bound::SIZE.positive()),
+            ("chin.speed", self.speed, Bound::SPEED.positive()),
+            ("chin.force", self.force, Bound::FORCE.positive()),
+            ("chin.turn", self.turn, Bound::TURN_RATE.positive()),
+            ("chin.time", self.time, Bound::SECONDS),
+            ("chin.success", self.success, Bound::SHARE),
+            ("chin.walk", self.walk, Bound::SHARE),
+        ]);
+        numbers.or_else(|| {
+            (self.reach.0 >= self.reach.1)
+                .then(|| ("chin.reach".into(), "needs two lengths, the lesser one first".into()))
+        })
     }
 }
 
 impl Kick {
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds {
-            positive: vec![("kicks.run_out", self.run_out), ("kicks.time", self.time)],
-            at_least_0: vec![
-                ("kicks.run_out_spread", self.run_out_spread),
-                ("kicks.spread", self.spread),
-                ("kicks.direction", self.direction.abs()),
-            ],
-            shares: vec![],
-        }
+    pub(super) fn fault(&self, name: &str) -> Option<Fault> {
+        let numbers = [
+            ("run_out", self.run_out, Bound::LENGTH.positive()),
+            ("run_out_spread", self.run_out_spread, Bound::LENGTH),
+            ("spread", self.spread, Bound::ANGLE),
+            ("direction", self.direction, Bound::HEADING),
+            ("time", self.time, Bound::SECONDS.positive()),
+        ];
+        first_fault(numbers).map(|(field, message)| (format!("kicks.{name}.{field}"), message))
     }
 }

@@ -142,6 +142,13 @@ pub enum Places {
 }
 
 impl Places {
+    pub fn count(&self) -> usize {
+        match self {
+            Places::One(_) => 1,
+            Places::Grid { x, y } => x.len().saturating_mul(y.len()),
+        }
+    }
+
     /// Column by column from the grid's first x.
     pub fn to_vec(&self) -> Vec<Vec2> {
         match self {

@@ -3,6 +3,7 @@
 use bevy::prelude::*;
 
 use super::requests::{Request, Requests, Weather};
+use crate::data::Bound;
 use crate::radio::{Channel, Conditions, FaultRules};
 
 pub(super) fn change_weather(
@@ -14,10 +15,10 @@ pub(super) fn change_weather(
     for request in requests.iter() {
         let Request::Air(weather) = request else { continue };
         match weather {
+            Weather::Change(radio) if radio.fault().is_some() => {}
             Weather::Change(radio) => channel.set_radio(radio.clone()),
-            Weather::ExtraLoss(share) if share.is_finite() => conditions.extra_loss = share.clamp(0.0, 1.0),
-            Weather::ExtraDelay(seconds) if seconds.is_finite() => conditions.extra_delay = seconds.max(0.0),
-            Weather::ExtraLoss(_) | Weather::ExtraDelay(_) => {}
+            Weather::ExtraLoss(share) => conditions.extra_loss = Bound::SHARE.clamp(*share),
+            Weather::ExtraDelay(seconds) => conditions.extra_delay = Bound::DELAY.clamp(*seconds),
             Weather::Jam(jammed) => conditions.jammed = *jammed,
             Weather::CutOff(robot) => {
                 conditions.cut_off.insert(*robot);
@@ -27,6 +28,7 @@ pub(super) fn change_weather(
             }
             Weather::Part(partition) => conditions.partitions.push(partition.clone()),
             Weather::Heal => conditions.partitions.clear(),
+            Weather::Fault(rule) if rule.fault().is_some() => {}
             Weather::Fault(rule) => faults.add(rule.clone()),
         }
     }

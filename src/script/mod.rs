@@ -14,6 +14,7 @@ use bevy::prelude::*;
 
 use crate::behaviour::Activity;
 use crate::clock::Clock;
+use crate::data::Bound;
 use crate::ids::{RobotId, Team};
 use crate::perception::Memory;
 use crate::pilot::Pilot;
@@ -78,7 +79,7 @@ fn carry_out_requests(
                 let term =
                     strategy.assemblages.get_mut(assemblage).and_then(|found| found.terms.get_mut(term));
                 if let Some(term) = term.filter(|_| weight.is_finite()) {
-                    term.weight = weight;
+                    term.weight = Bound::WEIGHT.clamp(weight);
                 }
             }
             Request::ChangeStrategy { team, strategy } => {

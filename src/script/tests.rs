@@ -171,3 +171,14 @@ fn a_robot_that_nobody_drives_is_not_steered() {
     ask(&mut app, [Request::TakeOver(FIRST), Request::HandBack(FIRST), steer(FIRST, 0.5)]);
     assert_eq!(pilots(&mut app), []);
 }
+
+#[test]
+fn what_a_hand_asks_for_is_kept_within_the_bounds_of_files() {
+    let mut app = app();
+    let weight = Request::SetWeight { team: Home, assemblage: 0, term: 0, weight: 1e30 };
+    let weather = [Weather::ExtraDelay(1e30), Weather::ExtraLoss(-5.0)].map(Request::Air);
+    ask(&mut app, [weight].into_iter().chain(weather));
+    assert_eq!(weights(&app, Home), [1000.0, 2.0]);
+    let conditions = app.world().resource::<Conditions>();
+    assert_eq!((conditions.extra_delay, conditions.extra_loss, conditions.fault()), (600.0, 0.0, None));
+}

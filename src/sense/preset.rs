@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::Bounds;
+use crate::data::{Bound, Fault, first_fault};
 
 /// Eyes, localisation, odometry and memory of a robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,35 +81,32 @@ pub struct MemorySpans {
 
 impl Sensing {
     /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        let mut at_least_0 = vec![("memory.ball", self.memory.ball), ("memory.robots", self.memory.robots)];
-        let mut positive = Vec::new();
-        let mut shares = Vec::new();
-        if let Eyes::Real { camera, localisation, odometry } = &self.eyes {
-            positive.extend([
-                ("eyes.camera.field_of_view", camera.field_of_view),
-                ("eyes.camera.frame_hz", camera.frame_hz),
-                ("eyes.camera.ball_range", camera.ball_range),
-                ("eyes.camera.robot_range", camera.robot_range),
-                ("eyes.localisation.drift_time", localisation.drift_time),
-                ("eyes.localisation.jump_time", localisation.jump_time),
-            ]);
-            at_least_0.extend([
-                ("eyes.camera.latency", camera.latency),
-                ("eyes.camera.range_noise", camera.range_noise),
-                ("eyes.camera.range_floor", camera.range_floor),
-                ("eyes.camera.bearing_noise", camera.bearing_noise),
-                ("eyes.localisation.position", localisation.position),
-                ("eyes.localisation.heading", localisation.heading),
-                ("eyes.odometry.distance", odometry.distance),
-                ("eyes.odometry.heading", odometry.heading),
-            ]);
-            shares.extend([
-                ("eyes.camera.detection", camera.detection),
-                ("eyes.camera.visible_share", camera.visible_share),
-                ("eyes.camera.false_positive", camera.false_positive),
-            ]);
-        }
-        Bounds { positive, at_least_0, shares }.fault()
+    pub fn fault(&self) -> Option<Fault> {
+        let memory = first_fault([
+            ("memory.ball", self.memory.ball, Bound::SECONDS),
+            ("memory.robots", self.memory.robots, Bound::SECONDS),
+        ]);
+        memory.or_else(|| match &self.eyes {
+            Eyes::Perfect => None,
+            Eyes::Real { camera, localisation, odometry } => first_fault([
+                ("eyes.camera.field_of_view", camera.field_of_view, Bound::ANGLE.positive()),
+                ("eyes.camera.frame_hz", camera.frame_hz, Bound::RATE.positive()),
+                ("eyes.camera.latency", camera.latency, Bound::DELAY),
+                ("eyes.camera.ball_range", camera.ball_range, Bound::LENGTH.positive()),
+                ("eyes.camera.robot_range", camera.robot_range, Bound::LENGTH.positive()),
+                ("eyes.camera.range_noise", camera.range_noise, Bound::COEFFICIENT),
+                ("eyes.camera.range_floor", camera.range_floor, Bound::LENGTH),
+                ("eyes.camera.bearing_noise", camera.bearing_noise, Bound::ANGLE),
+                ("eyes.camera.detection", camera.detection, Bound::SHARE),
+                ("eyes.camera.visible_share", camera.visible_share, Bound::SHARE),
+                ("eyes.camera.false_positive", camera.false_positive, Bound::SHARE),
+                ("eyes.localisation.position", localisation.position, Bound::LENGTH),
+                ("eyes.localisation.heading", localisation.heading, Bound::ANGLE),
+                ("eyes.localisation.drift_time", localisation.drift_time, Bound::SECONDS.positive()),
+                ("eyes.localisation.jump_time", localisation.jump_time, Bound::SECONDS.positive()),
+                ("eyes.odometry.distance", odometry.distance, Bound::LENGTH),
+                ("eyes.odometry.heading", odometry.heading, Bound::ANGLE),
+            ]),
+        })
     }
 }

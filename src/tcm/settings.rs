@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::client::{QueueRule, WhenFull};
 use super::fragments::{HEADER, LARGEST_DATAGRAM, Limits, USUAL_DATAGRAM};
 use crate::clock::Clock;
+use crate::data::{Bound, Fault, count_fault, first_fault};
 
 /// A field that a file leaves out has its default.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,25 +41,25 @@ impl Default for TcmSettings {
 /// Room for what the table of unfinished messages needs itself, bytes.
 const OVERHEAD: usize = 16 * 1024;
 
+/// Messages in a queue, taken at a time or in assembly.
+const MOST_MESSAGES: usize = 100_000;
+/// A message, bytes.
+const LONGEST: usize = 16 << 20;
+
 impl TcmSettings {
     /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        if !(HEADER + 1..=LARGEST_DATAGRAM).contains(&self.datagram) {
-            let message =
-                format!("must be between {} and {LARGEST_DATAGRAM}, not {}", HEADER + 1, self.datagram);
-            return Some(("datagram", message));
-        }
+    pub fn fault(&self) -> Option<Fault> {
         let counts = [
-            ("queue.capacity", self.queue.capacity),
-            ("takes", self.takes),
-            ("unfinished", self.unfinished),
-            ("longest", self.longest),
+            ("datagram", self.datagram, HEADER + 1..=LARGEST_DATAGRAM),
+            ("queue.capacity", self.queue.capacity, 1..=MOST_MESSAGES),
+            ("takes", self.takes, 1..=MOST_MESSAGES),
+            ("unfinished", self.unfinished, 1..=MOST_MESSAGES),
+            ("longest", self.longest, 1..=LONGEST),
         ];
-        if let Some((field, _)) = counts.into_iter().find(|(_, count)| *count == 0) {
-            return Some((field, "must be at least 1".into()));
-        }
-        (!(self.patience.is_finite() && self.patience > 0.0))
-            .then(|| ("patience", format!("must be a positive number of seconds, not {}", self.patience)))
+        let faulty =
+            |(field, count, within): (&str, usize, _)| Some((field.into(), count_fault(count, within)?));
+        let patience = [("patience", self.patience, Bound::SECONDS.positive())];
+        counts.into_iter().find_map(faulty).or_else(|| first_fault(patience))
     }
 
     /// What an assembly may cost.

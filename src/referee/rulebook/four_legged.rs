@@ -172,7 +172,7 @@ mod tests {
         for (path, spoil) in bad {
             let mut book = four_legged_book();
             spoil(&mut book);
-            assert_eq!(book.fault().map(|(field, _)| field), Some(path));
+            assert_eq!(book.fault().map(|(field, _)| field).as_deref(), Some(path));
         }
     }
 }

@@ -1,7 +1,10 @@
 //! Checks of expectations and conditions.
 
+use bevy::prelude::Vec2;
+
 use super::{Checker, Result};
-use crate::data::{Field, no_such};
+use crate::data::{Bound, Field, no_such};
+use crate::geometry::Zone;
 use crate::ids::RobotId;
 use crate::scenario::condition::{Area, Condition, Expectation, Packets, Thing};
 
@@ -10,7 +13,7 @@ impl Checker<'_> {
         let at = match expectation {
             Expectation::Eventually { within, after, .. } => {
                 let at = at.key("Eventually");
-                self.not_negative(*within, &at.key("within"))?;
+                self.source.within(&at.key("within"), *within, Bound::SECONDS)?;
                 self.time(*after, &at.key("after"))?;
                 // The sum may be a rounding error beyond the end.
                 if f64::from(*after) + f64::from(*within) > f64::from(self.seconds) + 1e-4 {
@@ -57,7 +60,7 @@ impl Checker<'_> {
                 let at = at.key("Distance");
                 self.thing(*from, &at.key("from"))?;
                 self.thing(*to, &at.key("to"))?;
-                self.limits(*below, *above, &at)
+                self.limits(*below, *above, Bound::LENGTH, &at)
             }
             Condition::Speed { of, below, above } => {
                 let at = at.key("Speed");
@@ -65,16 +68,14 @@ impl Checker<'_> {
                 if let Thing::BallAtStart | Thing::At(..) | Thing::Goal(_) = of {
                     return self.fault(&at.key("of"), "does not move");
                 }
-                self.limits(*below, *above, &at)
+                self.limits(*below, *above, Bound::SPEED, &at)
             }
             Condition::InZone { what, zone } => {
                 let at = at.key("InZone");
                 self.thing(*what, &at.key("what"))?;
                 match zone {
-                    Area::Rectangle(zone) if !zone.is_finite() => {
-                        self.fault(&at.key("zone").key("Rectangle"), "needs finite corners, min below max")
-                    }
-                    _ => Ok(()),
+                    Area::Rectangle(zone) => self.zone(*zone, &at.key("zone").key("Rectangle")),
+                    Area::PenaltyArea(_) | Area::Half(_) | Area::Goal(_) => Ok(()),
                 }
             }
             Condition::Sent(packets) => self.packets(packets, &at.key("Sent")),
@@ -157,18 +158,21 @@ impl Checker<'_> {
     fn thing(&self, thing: Thing, at: &Field) -> Result<()> {
         match thing {
             Thing::Robot(robot) => self.robot(robot, &at.key("Robot")),
-            Thing::At(x, y) => {
-                self.source.finite(&at.key("At").index(0), x)?;
-                self.source.finite(&at.key("At").index(1), y).map(drop)
-            }
+            Thing::At(x, y) => self.source.vector_within(&at.key("At"), Vec2::new(x, y), Bound::PLACE),
             Thing::Ball | Thing::BallAtStart | Thing::Goal(_) => Ok(()),
         }
     }
 
-    fn limits(&self, below: Option<f32>, above: Option<f32>, at: &Field) -> Result<()> {
+    fn zone(&self, zone: Zone, at: &Field) -> Result<()> {
+        self.source.vector_within(&at.key("min"), zone.min, Bound::PLACE)?;
+        self.source.vector_within(&at.key("max"), zone.max, Bound::PLACE)?;
+        if zone.is_finite() { Ok(()) } else { self.fault(at, "its min must be below its max") }
+    }
+
+    fn limits(&self, below: Option<f32>, above: Option<f32>, bound: Bound, at: &Field) -> Result<()> {
         for (key, limit) in [("below", below), ("above", above)] {
             if let Some(limit) = limit {
-                self.not_negative(limit, &at.key(key))?;
+                self.source.within(&at.key(key), limit, bound)?;
             }
         }
         match (below, above) {

@@ -11,7 +11,7 @@ use super::condition::Expectation;
 use super::event::{Dependency, Event, TimedEvent};
 use super::file::{Places, PlayerFile, Referee, ScenarioFile, SideFile};
 use super::watch::ticks;
-use crate::data::{DataError, Field, Source, no_such};
+use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -117,10 +117,7 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
     if file.name.trim().is_empty() {
         return checker.fault(&root.key("name"), "must say what the scenario shows");
     }
-    if !(file.seconds.is_finite() && file.seconds > 0.0) {
-        let message = format!("must be a positive number of seconds, not {}", file.seconds);
-        return checker.fault(&root.key("seconds"), message);
-    }
+    source.within(&root.key("seconds"), file.seconds, Bound::SECONDS.positive())?;
     let seeds = checker.seeds(file.seeds.to_vec(), &root.key("seeds"))?;
     let may_fail = usize::from(file.may_fail);
     if may_fail >= seeds.len() {
@@ -136,7 +133,7 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
         None => None,
     };
     let places = checker.places(&file.ball.at, &root.key("ball").key("at"))?;
-    checker.finite(file.ball.velocity, &root.key("ball").key("velocity"))?;
+    source.vector_within(&root.key("ball").key("velocity"), file.ball.velocity, Bound::VELOCITY)?;
     for (i, rule) in file.faults.iter().enumerate() {
         checker.rule(rule, &root.key("faults").index(i))?;
     }
@@ -171,6 +168,11 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
     })
 }
 
+/// Seeds of a scenario.
+const MOST_SEEDS: usize = 10_000;
+/// Places of the ball in a scenario.
+const MOST_PLACES: usize = 10_000;
+
 struct Checker<'a> {
     source: &'a Source,
     known: &'a Known<'a>,
@@ -185,28 +187,17 @@ impl Checker<'_> {
         Err(self.source.error_at(at, message))
     }
 
-    fn finite(&self, vector: Vec2, at: &Field) -> Result<()> {
-        if vector.is_finite() { Ok(()) } else { self.fault(at, "needs finite coordinates") }
-    }
-
     fn on_pitch(&self, point: Vec2, at: &Field) -> Result<()> {
-        self.finite(point, at)?;
+        self.source.vector_within(at, point, Bound::PLACE)?;
         if self.known.pitch.holds(point, 0.0) {
             return Ok(());
         }
         self.fault(at, format!("({}, {}) is not on the pitch", point.x, point.y))
     }
 
-    fn not_negative(&self, value: f32, at: &Field) -> Result<()> {
-        if value.is_finite() && value >= 0.0 {
-            return Ok(());
-        }
-        self.fault(at, format!("must be a number of at least 0, not {value}"))
-    }
-
     /// A time within the scenario.
     fn time(&self, time: f32, at: &Field) -> Result<()> {
-        self.not_negative(time, at)?;
+        self.source.within(at, time, Bound::SECONDS)?;
         if time <= self.seconds {
             return Ok(());
         }
@@ -232,8 +223,8 @@ impl Checker<'_> {
     }
 
     fn seeds(&self, seeds: Vec<u64>, at: &Field) -> Result<Vec<u64>> {
-        if seeds.is_empty() {
-            return self.fault(at, "needs at least one seed");
+        if let Some(message) = count_fault(seeds.len(), 1..=MOST_SEEDS) {
+            return self.fault(at, format!("the number of seeds {message}"));
         }
         if let Some(i) = seeds.iter().position(|seed| *seed > LARGEST_SEED) {
             return self.fault(&at.index(i), format!("must be at most {LARGEST_SEED}, not {}", seeds[i]));
@@ -245,10 +236,10 @@ impl Checker<'_> {
     }
 
     fn places(&self, places: &Places, at: &Field) -> Result<Vec<Vec2>> {
-        let known = places.to_vec();
-        if known.is_empty() {
-            return self.fault(at, "needs at least one place");
+        if let Some(message) = count_fault(places.count(), 1..=MOST_PLACES) {
+            return self.fault(at, format!("the number of places {message}"));
         }
+        let known = places.to_vec();
         for (i, place) in known.iter().enumerate() {
             self.on_pitch(*place, at)?;
             if known[..i].contains(place) {
@@ -283,7 +274,7 @@ impl Checker<'_> {
             return self.fault(&at.key("number"), format!("{id} is given twice"));
         }
         self.on_pitch(player.at, &at.key("at"))?;
-        self.source.finite(&at.key("facing"), player.facing)?;
+        self.source.within(&at.key("facing"), player.facing, Bound::HEADING)?;
         if let Some(role) = &player.role {
             self.role(team, role, &at.key("role"))?;
         }
@@ -296,7 +287,7 @@ impl Checker<'_> {
         self.maybe_robot(rule.from, &at.key("from"))?;
         self.maybe_robot(rule.to, &at.key("to"))?;
         match rule.fault() {
-            Some((field, message)) => self.fault(&at.key(field), message),
+            Some((field, message)) => self.fault(&at.dotted(&field), message),
             None => Ok(()),
         }
     }
@@ -319,17 +310,17 @@ impl Checker<'_> {
             Event::Radio(name) => self.fault(&at.key("Radio"), no_such("radio", name, &self.known.radios)),
             Event::Ball { at: place, velocity } => {
                 self.on_pitch(*place, &at.key("Ball").key("at"))?;
-                self.finite(*velocity, &at.key("Ball").key("velocity"))
+                self.source.vector_within(&at.key("Ball").key("velocity"), *velocity, Bound::VELOCITY)
             }
             Event::Push { robot, by } => {
                 self.robot(*robot, &at.key("Push").key("robot"))?;
-                self.finite(*by, &at.key("Push").key("by"))
+                self.source.vector_within(&at.key("Push").key("by"), *by, Bound::VELOCITY)
             }
             Event::Kidnap { robot, to, facing } => {
                 let at = at.key("Kidnap");
                 self.robot(*robot, &at.key("robot"))?;
                 self.on_pitch(*to, &at.key("to"))?;
-                self.source.finite(&at.key("facing"), *facing).map(drop)
+                self.source.within(&at.key("facing"), *facing, Bound::HEADING)
             }
             Event::InitiateSwap { robot, roles } => {
                 self.robot(*robot, &at.key("InitiateSwap").key("robot"))?;

@@ -59,17 +59,24 @@ fn faults_name_line_and_field() {
 fn the_head_of_a_scenario_is_checked() {
     for (part, instead, expected) in [
         ("The floater takes over from a halfback that breaks down", " ", "name: must say"),
-        ("seconds: 20", "seconds: 0", "seconds: must be a positive number of seconds, not 0"),
-        ("seconds: 20", "seconds: NaN", "seconds: must be a positive"),
-        ("seeds: 3", "seeds: 0", "seeds: needs at least one seed"),
+        ("seconds: 20", "seconds: 0", "seconds: must be at least 0.001 s, not 0"),
+        ("seconds: 20", "seconds: NaN", "seconds: must be a number, not NaN"),
+        ("seconds: 20", "seconds: 1e30", "x.ron:5:14: seconds: must be at most 86400 s, not 1e30"),
+        ("seeds: 3", "seeds: 0", "seeds: the number of seeds must be at least 1, not 0"),
+        ("seeds: 3", "seeds: 20000", "seeds: the number of seeds must be at most 10000, not 20000"),
         ("seeds: 3", "seeds: [4, 5, 4]", "seeds[2]: the seed 4 is given twice"),
         ("seeds: 3", r#"radio: "lousy""#, "radio: there is no radio `lousy`; known: lossy, perfect"),
         ("at: (-1.5, 0.5)", "at: (-1.5, 5)", "ball.at: (-1.5, 5) is not on the pitch"),
         ("at: (-1.5, 0.5)", "at: (x: [0, 5], y: [1])", "ball.at: (5, 1) is not on the pitch"),
         ("at: (-1.5, 0.5)", "at: (x: [0, 1, 0], y: [1])", "ball.at: (0, 1) is given twice"),
-        ("at: (-1.5, 0.5)", "at: (x: [], y: [1])", "ball.at: needs at least one place"),
+        ("at: (-1.5, 0.5)", "at: (x: [], y: [1])", "ball.at: the number of places must be at least 1, not 0"),
         ("seeds: 3", "seeds: 3, may_fail: 3", "may_fail: must be less than the number of seeds, 3"),
-        ("velocity: (0.5, 0.0)", "velocity: (0.5, inf)", "ball.velocity: needs finite coordinates"),
+        ("velocity: (0.5, 0.0)", "velocity: (0.5, inf)", "ball.velocity[1]: must be at most 50 m/s, not inf"),
+        (
+            "velocity: (0.5, 0.0)",
+            "velocity: (-1e30, 0.0)",
+            "ball.velocity[0]: must be at least -50 m/s, not -1e30",
+        ),
         (r#"from: "home 2""#, r#"from: "away 2""#, "faults[0].from: there is no robot `away 2`"),
         ("which: First", "which: Nth(0)", "faults[0].which: packets are counted from 1"),
     ] {
@@ -83,8 +90,8 @@ fn players_are_checked() {
     for (part, instead, expected) in [
         ("number: 1", "number: 2", "home.players[1].number: home 2 is given twice"),
         ("number: 1", "number: 4", "[1].number: there is no player with number `4`; known: 0, 1, 2, 3"),
-        ("at: (-2.2, 0.8)", "at: (-2.2, NaN)", "home.players[1].at: needs finite coordinates"),
-        ("facing: 90", "facing: inf", "home.players[0].facing: expected a finite number, not inf"),
+        ("at: (-2.2, 0.8)", "at: (-2.2, NaN)", "home.players[1].at[1]: must be a number, not NaN"),
+        ("facing: 90", "facing: inf", "home.players[0].facing: must be at most 360°, not inf"),
     ] {
         let error = trouble(part, instead);
         assert!(error.contains(expected), "{error}");
@@ -99,11 +106,19 @@ fn players_are_checked() {
 #[test]
 fn the_script_is_checked() {
     for (instead, expected) in [
-        ("at: -1, what: Heal", "script[0].at: must be a number of at least 0, not -1"),
+        ("at: -1, what: Heal", "script[0].at: must be at least 0 s, not -1"),
         ("at: 21, what: Heal", "script[0].at: 21 s is after the end, which is at 20 s"),
         (r#"at: 1, what: Radio("x")"#, "what.Radio: there is no radio `x`; known: lossy, perfect"),
         ("at: 1, what: Ball(at: (0, 9))", "what.Ball.at: (0, 9) is not on the pitch"),
-        (r#"at: 1, what: Push(robot: "home 1", by: (0, NaN))"#, "Push.by: needs finite coordinates"),
+        (r#"at: 1, what: Push(robot: "home 1", by: (0, NaN))"#, "Push.by[1]: must be a number, not NaN"),
+        (
+            r#"at: 1, what: Push(robot: "home 1", by: (1e30, 0))"#,
+            "Push.by[0]: must be at most 50 m/s, not 1e30",
+        ),
+        (
+            "at: 1, what: Ball(at: (0, 0), velocity: (0, 1e9))",
+            "Ball.velocity[1]: must be at most 50 m/s, not 1e9",
+        ),
         (
             r#"at: 1, what: Kidnap(robot: "home 1", to: (9, 0), facing: 0)"#,
             "Kidnap.to: (9, 0) is not on the pitch",
@@ -133,8 +148,8 @@ fn the_script_is_checked() {
 fn the_times_of_expectations_lie_within_the_scenario() {
     for (part, instead, expected) in [
         ("within: 5", "within: 18", "expect[0].Eventually.within: 21 s is after the end, which is at 20 s"),
-        ("within: 5", "within: -1", "expect[0].Eventually.within: must be a number of at least 0"),
-        ("after: 3", "after: -3", "expect[0].Eventually.after: must be a number of at least 0"),
+        ("within: 5", "within: -1", "expect[0].Eventually.within: must be at least 0 s, not -1"),
+        ("after: 3", "after: -3", "expect[0].Eventually.after: must be at least 0 s, not -3"),
         ("until: 10", "until: 30", "expect[2].Never.until: 30 s is after the end"),
         ("until: 10", "until: 1", "expect[2].Never.until: 1 s is before the start at 2 s"),
     ] {
@@ -156,8 +171,8 @@ fn conditions_that_mean_nothing_are_faults() {
         (r#"Claims("away 1")"#, "Claims: there is no robot `away 1`"),
         (r#"Holder(robot: "home 1", seen_by: "home 0")"#, "Holder.seen_by: there is no robot `home 0`"),
         ("Distance(from: Ball, to: At(0, 0))", "Distance: needs `below` or `above`"),
-        ("Distance(from: Ball, to: At(0, NaN), below: 1)", "Distance.to.At[1]: expected a finite number"),
-        ("Distance(from: Ball, to: At(0, 0), below: -1)", "Distance.below: must be a number of at least 0"),
+        ("Distance(from: Ball, to: At(0, NaN), below: 1)", "Distance.to.At[1]: must be a number, not NaN"),
+        ("Distance(from: Ball, to: At(0, 0), below: -1)", "Distance.below: must be at least 0 m, not -1"),
         (
             "Distance(from: Ball, to: At(0, 0), below: 1, above: 2)",
             "Distance.below: nothing is below 1 and above 2",
@@ -166,7 +181,7 @@ fn conditions_that_mean_nothing_are_faults() {
         ("Speed(of: Ball, below: 0)", "Speed.below: nothing is below 0"),
         (
             "InZone(what: Ball, zone: Rectangle(min: (1, 0), max: (0, 1)))",
-            "InZone.zone.Rectangle: needs finite",
+            "InZone.zone.Rectangle: its min must be below its max",
         ),
         ("Sent(kind: Lock, at_least: 0)", "Sent.at_least: at least 0 always holds"),
         ("Delivered(kind: Lock, since: 21)", "Delivered.since: 21 s is after the end"),

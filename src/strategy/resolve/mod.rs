@@ -2,6 +2,8 @@
 //! operators. The first fault is reported with its place in the file.
 
 mod teamwork;
+#[cfg(test)]
+mod tests;
 mod words;
 
 use std::collections::BTreeMap;
@@ -14,7 +16,7 @@ use super::{
     Assemblage, Combination, HomebaseRule, Machine, Part, Play, RoleSpec, State, Strategy, SubRole, Term,
     Transition, Turn,
 };
-use crate::data::{DataError, Field, Source, no_such};
+use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
 use crate::geometry::Zone;
 
 type Result<T> = std::result::Result<T, DataError>;
@@ -22,13 +24,9 @@ type Result<T> = std::result::Result<T, DataError>;
 /// Positions are stretched from the pitch that the file was written for to the one that is played on, of this size in metres.
 pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>) -> Result<Strategy> {
     let root = Field::root();
-    if let Some(drawn) = file.pitch.filter(|drawn| !(drawn.is_finite() && drawn.min_element() > 0.0)) {
-        return Err(
-            source.error_at(&root.key("pitch"), format!("{drawn} is no pitch: length and width in metres"))
-        );
-    }
     let scale = pitch.zip(file.pitch).map_or(Vec2::ONE, |(played, drawn)| played / drawn);
-    let mut resolver = Resolver { file, source, scale, slots: 0, open: Vec::new() };
+    let mut resolver = Resolver { file, source, scale, slots: 0, open: Vec::new(), depth: 0, work: 0 };
+    resolver.check_sizes()?;
     resolver.check_named_pieces()?;
     let assemblages = (file.assemblages.iter())
         .map(|(name, assemblage)| resolver.assemblage(name, assemblage, &root.key("assemblages").key(name)))
@@ -63,6 +61,10 @@ struct Resolver<'a> {
     slots: usize,
     /// Names that are being looked up, to notice one that is defined by itself.
     open: Vec<String>,
+    /// How many values are around the one that is being checked, names counted as what they stand for.
+    depth: usize,
+    /// How many values have been checked.
+    work: usize,
 }
 
 impl Resolver<'_> {
@@ -78,30 +80,40 @@ impl Resolver<'_> {
         }
     }
 
-    fn finite(&self, value: f32, at: &Field) -> Result<()> {
-        self.source.finite(at, value).map(drop)
+    fn within(&self, value: f32, bound: Bound, at: &Field) -> Result<()> {
+        self.source.within(at, value, bound)
     }
 
-    fn not_negative(&self, value: f32, at: &Field) -> Result<()> {
-        if value.is_finite() && value >= 0.0 {
-            return Ok(());
+    fn place(&self, place: Vec2, at: &Field) -> Result<()> {
+        self.source.vector_within(at, place, Bound::PLACE)
+    }
+
+    fn sound_zone(&self, zone: Zone, at: &Field) -> Result<()> {
+        self.place(zone.min, &at.key("min"))?;
+        self.place(zone.max, &at.key("max"))?;
+        if zone.is_finite() { Ok(()) } else { self.fault(at, "its min must be below its max") }
+    }
+
+    fn count(&self, what: &str, count: usize, most: usize, at: &Field) -> Result<()> {
+        count_fault(count, 0..=most)
+            .map_or(Ok(()), |message| self.fault(at, format!("the number of {what} {message}")))
+    }
+
+    /// Checks one value inside others, and what is inside it.
+    fn nested(&mut self, at: &Field, check: impl FnOnce(&mut Self) -> Result<()>) -> Result<()> {
+        self.depth += 1;
+        self.work += 1;
+        if self.depth > DEEPEST {
+            return self
+                .fault(at, format!("is nested too deeply: {DEEPEST} values inside each other at most"));
         }
-        self.fault(at, format!("must be a number of at least 0, not {value}"))
-    }
-
-    fn share(&self, value: f32, at: &Field) -> Result<()> {
-        if (0.0..=1.0).contains(&value) {
-            return Ok(());
+        if self.work > MOST_WORK {
+            let message = "with every name replaced by what it stands for, the strategy becomes too large: ";
+            return self.fault(at, format!("{message}{MOST_WORK} values at most"));
         }
-        self.fault(at, format!("must lie between 0 and 1, not {value}"))
-    }
-
-    fn finite_point(&self, point: Vec2, at: &Field) -> Result<()> {
-        if point.is_finite() { Ok(()) } else { self.fault(at, "needs finite coordinates") }
-    }
-
-    fn finite_zone(&self, zone: Zone, at: &Field) -> Result<()> {
-        if zone.is_finite() { Ok(()) } else { self.fault(at, "needs finite corners, min below max") }
+        check(self)?;
+        self.depth -= 1;
+        Ok(())
     }
 
     fn slot(&mut self) -> usize {
@@ -109,11 +121,33 @@ impl Resolver<'_> {
         self.slots - 1
     }
 
+    /// Checks the pitch, and how many pieces there are.
+    fn check_sizes(&self) -> Result<()> {
+        let (file, root) = (self.file, Field::root());
+        if let Some(drawn) = file.pitch {
+            self.source.vector_within(&root.key("pitch"), drawn, Bound::PITCH)?;
+        }
+        let sections = [
+            ("zones", file.zones.len(), MOST_PIECES),
+            ("percepts", file.percepts.len(), MOST_PIECES),
+            ("point_sets", file.point_sets.len(), MOST_PIECES),
+            ("features", file.features.len(), MOST_PIECES),
+            ("schemas", file.schemas.len(), MOST_PIECES),
+            ("assemblages", file.assemblages.len(), MOST_PIECES),
+            ("machines", file.machines.len(), MOST_PIECES),
+            ("roles", file.roles.len(), MOST_ROLES),
+        ];
+        for (section, count, most) in sections {
+            self.count("its pieces", count, most, &root.key(section))?;
+        }
+        Ok(())
+    }
+
     /// Checks what is named but perhaps never used.
     fn check_named_pieces(&mut self) -> Result<()> {
         let (file, root) = (self.file, Field::root());
         for (name, zone) in &file.zones {
-            self.finite_zone(*zone, &root.key("zones").key(name))?;
+            self.sound_zone(*zone, &root.key("zones").key(name))?;
         }
         for (name, point) in &file.percepts {
             self.point(&mut point.clone(), &root.key("percepts").key(name))?;
@@ -174,7 +208,7 @@ impl Resolver<'_> {
     }
 
     fn term(&mut self, weight: f32, name: &str, at: &Field) -> Result<Term> {
-        self.finite(weight, &at.index(0))?;
+        self.within(weight, Bound::WEIGHT, &at.index(0))?;
         let schema = self.expand(&self.file.schemas, "schema", name, &at.index(1), |s, schema| {
             s.schema(schema, &Field::root().key("schemas").key(name))
         })?;
@@ -182,6 +216,7 @@ impl Resolver<'_> {
     }
 
     fn machine(&mut self, name: &str, file: &MachineFile, at: &Field) -> Result<Machine> {
+        self.count("states", file.states.len(), MOST_PIECES, &at.key("states"))?;
         let start = self.index(&file.states, "state", &file.start, &at.key("start"))?;
         let states = (file.states.iter())
             .map(|(name, state)| self.state(name, state, file, &at.key("states").key(name)))
@@ -202,7 +237,7 @@ impl Resolver<'_> {
                 Turn::Face(point)
             }
             TurnFile::Spin(rate) => {
-                self.finite(*rate, &at.key("turn"))?;
+                self.within(*rate, Bound::TURN_RATE.signed(), &at.key("turn"))?;
                 Turn::Spin(rate.to_radians())
             }
         };
@@ -215,7 +250,7 @@ impl Resolver<'_> {
                 label: transition.when.to_string(),
             });
         }
-        self.share(file.speed, &at.key("speed"))?;
+        self.within(file.speed, Bound::SHARE, &at.key("speed"))?;
         Ok(State {
             name: name.into(),
             assemblage,
@@ -233,10 +268,12 @@ impl Resolver<'_> {
         let (tag, part) = match file {
             RoleFile::Plays { tag, machine, danger_zone, homebases, homebase_rule } => {
                 let machine = self.index(&self.file.machines, "machine", machine, &at.key("machine"))?;
-                self.finite_zone(*danger_zone, &at.key("danger_zone"))?;
-                if homebases.is_empty() || homebases.iter().any(|home| !home.is_finite()) {
-                    return self
-                        .fault(&at.key("homebases"), "needs at least one homebase, all of them finite");
+                self.sound_zone(*danger_zone, &at.key("danger_zone"))?;
+                if homebases.is_empty() {
+                    return self.fault(&at.key("homebases"), "needs at least one homebase");
+                }
+                for (i, home) in homebases.iter().enumerate() {
+                    self.place(*home, &at.key("homebases").index(i))?;
                 }
                 let mut homebase_rule = homebase_rule.clone();
                 if let HomebaseRule::FarthestFrom(role) | HomebaseRule::NotNearestOf(role) =
@@ -289,8 +326,11 @@ impl Resolver<'_> {
             if places.len() != players {
                 return self.fault(&at, format!("{} places for {players} players", places.len()));
             }
-            if let Some(i) = places.iter().position(|place| !(place.is_finite() && place.x <= 0.0)) {
-                return self.fault(&at.index(i), "must lie in the team's own half: x of 0 at most");
+            for (i, place) in places.iter().enumerate() {
+                self.place(*place, &at.index(i))?;
+                if place.x > 0.0 {
+                    return self.fault(&at.index(i), "must lie in the team's own half: x of 0 at most");
+                }
             }
         }
         Ok(())
@@ -299,6 +339,14 @@ impl Resolver<'_> {
 
 /// Robots that one team can field.
 const MAX_PLAYERS: usize = 8;
+/// Pieces in a section of a strategy, or states of a machine.
+const MOST_PIECES: usize = 1000;
+/// Roles are spoken of by numbers of one byte.
+const MOST_ROLES: usize = 256;
+/// Values inside each other, with every name replaced by what it stands for.
+const DEEPEST: usize = 64;
+/// Values of a whole strategy, with every name replaced by what it stands for, wherever it is used.
+const MOST_WORK: usize = 50_000;
 
 fn unknown<T>(map: &BTreeMap<String, T>, what: &str, name: &str) -> String {
     no_such(what, name, map.keys())

@@ -1,7 +1,7 @@
 //! The `teamwork` section: roles looked up, numbers checked.
 
 use super::{Resolver, Result};
-use crate::data::Field;
+use crate::data::{Bound, Field};
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
     BallBooking, CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,
@@ -46,20 +46,21 @@ impl Resolver<'_> {
     }
 
     fn talk(&self, talk: &Talk, at: &Field) -> Result<()> {
-        self.positive(talk.position_every, &at.key("position_every"))?;
-        self.not_negative(talk.position_memory, &at.key("position_memory"))?;
-        self.positive(talk.claim_every, &at.key("claim_every"))?;
-        self.not_negative(talk.claim_memory, &at.key("claim_memory"))?;
-        self.not_negative(talk.claim_radius, &at.key("claim_radius"))?;
-        self.positive(talk.ball_every, &at.key("ball_every"))?;
-        self.not_negative(talk.ball_memory, &at.key("ball_memory"))
+        self.within(talk.position_every, Bound::SECONDS.positive(), &at.key("position_every"))?;
+        self.within(talk.position_memory, Bound::SECONDS, &at.key("position_memory"))?;
+        self.within(talk.claim_every, Bound::SECONDS.positive(), &at.key("claim_every"))?;
+        self.within(talk.claim_memory, Bound::SECONDS, &at.key("claim_memory"))?;
+        self.within(talk.claim_radius, Bound::LENGTH, &at.key("claim_radius"))?;
+        self.within(talk.ball_every, Bound::SECONDS.positive(), &at.key("ball_every"))?;
+        self.within(talk.ball_memory, Bound::SECONDS, &at.key("ball_memory"))
     }
 
     fn ball_booking(&self, booking: &BallBooking, at: &Field) -> Result<()> {
-        self.not_negative(booking.threshold, &at.key("threshold"))?;
-        self.positive(booking.renewal, &at.key("renewal"))?;
-        self.positive(booking.sight, &at.key("sight"))?;
-        if !(booking.timeout.is_finite() && booking.timeout > booking.renewal) {
+        self.within(booking.threshold, Bound::LENGTH, &at.key("threshold"))?;
+        self.within(booking.renewal, Bound::SECONDS.positive(), &at.key("renewal"))?;
+        self.within(booking.sight, Bound::SECONDS.positive(), &at.key("sight"))?;
+        self.within(booking.timeout, Bound::SECONDS, &at.key("timeout"))?;
+        if booking.timeout <= booking.renewal {
             let message =
                 format!("must be longer than the renewal of {} s, or every booking lapses", booking.renewal);
             return self.fault(&at.key("timeout"), message);
@@ -69,8 +70,7 @@ impl Resolver<'_> {
 
     fn role_swap(&self, file: &RoleSwapFile, at: &Field) -> Result<RoleSwapSpec> {
         if let Some((field, message)) = file.policy.fault() {
-            let at = field.split('.').fold(at.key("policy"), |at, key| at.key(key));
-            return self.fault(&at, message);
+            return self.fault(&at.key("policy").dotted(&field), message);
         }
         self.timers(&file.timers, &at.key("timers"))?;
         Ok(RoleSwapSpec {
@@ -92,20 +92,15 @@ impl Resolver<'_> {
     }
 
     fn timers(&self, timers: &Timers, at: &Field) -> Result<()> {
-        self.positive(timers.lock, &at.key("lock"))?;
-        self.positive(timers.locks, &at.key("locks"))?;
-        self.positive(timers.acks, &at.key("acks"))?;
+        self.within(timers.lock, Bound::SECONDS.positive(), &at.key("lock"))?;
+        self.within(timers.locks, Bound::SECONDS.positive(), &at.key("locks"))?;
+        self.within(timers.acks, Bound::SECONDS.positive(), &at.key("acks"))?;
         let (least, most) = timers.back_off;
-        if !(least.is_finite() && most.is_finite() && 0.0 <= least && least <= most) {
+        self.within(least, Bound::SECONDS, &at.key("back_off").index(0))?;
+        self.within(most, Bound::SECONDS, &at.key("back_off").index(1))?;
+        if least > most {
             return self.fault(&at.key("back_off"), "needs two times, the lesser one first");
         }
         Ok(())
-    }
-
-    fn positive(&self, value: f32, at: &Field) -> Result<()> {
-        if value.is_finite() && value > 0.0 {
-            return Ok(());
-        }
-        self.fault(at, format!("must be a number above 0, not {value}"))
     }
 }

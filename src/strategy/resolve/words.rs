@@ -2,12 +2,16 @@
 //! by what it stands for, and a stateful operator gets its slot.
 
 use super::{Resolver, Result, unknown};
-use crate::data::Field;
+use crate::data::{Bound, Field};
 use crate::strategy::RoleRef;
 use crate::strategy::language::{Feature, Point, Points, Schema, ZoneName};
 
 impl Resolver<'_> {
     pub(super) fn point(&mut self, point: &mut Point, at: &Field) -> Result<()> {
+        self.nested(at, |s| s.point_inside(point, at))
+    }
+
+    fn point_inside(&mut self, point: &mut Point, at: &Field) -> Result<()> {
         match point {
             Point::Named(name) => {
                 *point = self.expand(&self.file.percepts, "percept", name, at, |s, p| s.point(p, at))?;
@@ -22,17 +26,17 @@ impl Resolver<'_> {
             | Point::Booker => {}
             Point::Teammate(role) => self.role_ref(role, &at.index(0))?,
             Point::SupportSpot { behind, aside } => {
-                self.finite(*behind, &at.key("behind"))?;
-                self.finite(*aside, &at.key("aside"))?;
+                self.within(*behind, Bound::PLACE, &at.key("behind"))?;
+                self.within(*aside, Bound::PLACE, &at.key("aside"))?;
             }
             Point::AwayFromGoalie { x, y } => {
-                self.finite(*x, &at.key("x"))?;
-                self.not_negative(*y, &at.key("y"))?;
+                self.within(*x, Bound::PLACE, &at.key("x"))?;
+                self.within(*y, Bound::LENGTH, &at.key("y"))?;
                 (*x, *y) = (*x * self.scale.x, *y * self.scale.y);
             }
-            Point::BallIn(seconds) => self.not_negative(*seconds, at)?,
+            Point::BallIn(seconds) => self.within(*seconds, Bound::SECONDS, at)?,
             Point::At(place) => {
-                self.finite_point(*place, at)?;
+                self.place(*place, at)?;
                 *place *= self.scale;
             }
             Point::Closest(of) | Point::Average(of) => self.points(of, &at.index(0))?,
@@ -48,14 +52,14 @@ impl Resolver<'_> {
             Point::Toward { from, to, distance } => {
                 self.point(from, &at.key("from"))?;
                 self.point(to, &at.key("to"))?;
-                self.finite(*distance, &at.key("distance"))?;
+                self.within(*distance, Bound::PLACE, &at.key("distance"))?;
             }
             Point::SweetSpot { of, toward, offset } => {
                 self.point(of, &at.key("of"))?;
                 self.point(toward, &at.key("toward"))?;
-                self.finite(*offset, &at.key("offset"))?;
+                self.within(*offset, Bound::PLACE, &at.key("offset"))?;
             }
-            Point::Intercept { max_speed } => self.not_negative(*max_speed, &at.key("max_speed"))?,
+            Point::Intercept { max_speed } => self.within(*max_speed, Bound::SPEED, &at.key("max_speed"))?,
             Point::Into { zone, point } => {
                 self.zone(zone, &at.key("zone"))?;
                 self.point(point, &at.key("point"))?;
@@ -65,6 +69,10 @@ impl Resolver<'_> {
     }
 
     pub(super) fn points(&mut self, points: &mut Points, at: &Field) -> Result<()> {
+        self.nested(at, |s| s.points_inside(points, at))
+    }
+
+    fn points_inside(&mut self, points: &mut Points, at: &Field) -> Result<()> {
         match points {
             Points::Named(name) => {
                 *points =
@@ -88,23 +96,23 @@ impl Resolver<'_> {
             }
             Points::Within { of, radius } | Points::WithinOrClosest { of, radius } => {
                 self.points(of, &at.key("of"))?;
-                self.not_negative(*radius, &at.key("radius"))?;
+                self.within(*radius, Bound::LENGTH, &at.key("radius"))?;
             }
             Points::FartherThan { of, from, radius } => {
                 self.points(of, &at.key("of"))?;
                 self.point(from, &at.key("from"))?;
-                self.not_negative(*radius, &at.key("radius"))?;
+                self.within(*radius, Bound::LENGTH, &at.key("radius"))?;
             }
             Points::Remember { of, seconds, merge, blend, slot } => {
                 self.points(of, &at.key("of"))?;
-                self.not_negative(*seconds, &at.key("seconds"))?;
-                self.not_negative(*merge, &at.key("merge"))?;
-                self.share(*blend, &at.key("blend"))?;
+                self.within(*seconds, Bound::SECONDS, &at.key("seconds"))?;
+                self.within(*merge, Bound::LENGTH, &at.key("merge"))?;
+                self.within(*blend, Bound::SHARE, &at.key("blend"))?;
                 *slot = self.slot();
             }
             Points::Shifted { of, by } => {
                 self.points(of, &at.key("of"))?;
-                self.finite_point(*by, &at.key("by"))?;
+                self.place(*by, &at.key("by"))?;
             }
         }
         Ok(())
@@ -122,7 +130,7 @@ impl Resolver<'_> {
                 None => return self.fault(at, unknown(&self.file.zones, "zone", name)),
             },
             ZoneName::Exactly(zone) => {
-                self.finite_zone(*zone, at)?;
+                self.sound_zone(*zone, at)?;
                 *zone = zone.scaled(self.scale);
             }
             ZoneName::DangerZone | ZoneName::PenaltyArea => {}
@@ -131,6 +139,10 @@ impl Resolver<'_> {
     }
 
     pub(super) fn feature(&mut self, feature: &mut Feature, at: &Field) -> Result<()> {
+        self.nested(at, |s| s.feature_inside(feature, at))
+    }
+
+    fn feature_inside(&mut self, feature: &mut Feature, at: &Field) -> Result<()> {
         match feature {
             Feature::Is(name) => {
                 *feature = self.expand(&self.file.features, "feature", name, at, |s, f| s.feature(f, at))?;
@@ -156,18 +168,18 @@ impl Resolver<'_> {
             }
             Feature::Known(point) => self.point(point, &at.index(0))?,
             Feature::BallSeenWithin(seconds) | Feature::Stalled(seconds) | Feature::After(seconds) => {
-                self.not_negative(*seconds, at)?;
+                self.within(*seconds, Bound::SECONDS, at)?;
             }
             Feature::Near { a, b, radius } => {
                 self.point(a, &at.key("a"))?;
                 self.point(b, &at.key("b"))?;
-                self.not_negative(*radius, &at.key("radius"))?;
+                self.within(*radius, Bound::LENGTH, &at.key("radius"))?;
             }
             Feature::NearLatch { a, b, enter, leave, slot } => {
                 self.point(a, &at.key("a"))?;
                 self.point(b, &at.key("b"))?;
-                self.not_negative(*enter, &at.key("enter"))?;
-                self.not_negative(*leave, &at.key("leave"))?;
+                self.within(*enter, Bound::LENGTH, &at.key("enter"))?;
+                self.within(*leave, Bound::LENGTH, &at.key("leave"))?;
                 *slot = self.slot();
             }
             Feature::NearerThan { a, b } => {
@@ -180,21 +192,21 @@ impl Resolver<'_> {
             }
             Feature::Facing { point, within } | Feature::BehindBall { toward: point, within } => {
                 self.point(point, at)?;
-                self.not_negative(*within, &at.key("within"))?;
+                self.within(*within, Bound::ANGLE, &at.key("within"))?;
             }
             Feature::BallInScoop { gap, aside } => {
-                self.not_negative(*gap, &at.key("gap"))?;
-                self.not_negative(*aside, &at.key("aside"))?;
+                self.within(*gap, Bound::LENGTH, &at.key("gap"))?;
+                self.within(*aside, Bound::LENGTH, &at.key("aside"))?;
             }
             Feature::HoldFor { what, seconds, slot } | Feature::Lasting { what, seconds, slot } => {
                 self.feature(what, &at.key("what"))?;
-                self.not_negative(*seconds, &at.key("seconds"))?;
+                self.within(*seconds, Bound::SECONDS, &at.key("seconds"))?;
                 *slot = self.slot();
             }
             Feature::Watchdog { what, patience, seconds, slot } => {
                 self.feature(what, &at.key("what"))?;
-                self.not_negative(*patience, &at.key("patience"))?;
-                self.not_negative(*seconds, &at.key("seconds"))?;
+                self.within(*patience, Bound::SECONDS, &at.key("patience"))?;
+                self.within(*seconds, Bound::SECONDS, &at.key("seconds"))?;
                 *slot = self.slot();
             }
         }
@@ -224,30 +236,30 @@ impl Resolver<'_> {
                 self.repulsion(*sphere, *safety, at)?;
             }
             Schema::Noise { period, slot } => {
-                self.not_negative(*period, &at.key("period"))?;
+                self.within(*period, Bound::SECONDS, &at.key("period"))?;
                 *slot = self.slot();
             }
             Schema::DockBehind { ball, toward, standoff, enter_cone, leave_cone, slot } => {
                 self.point(ball, &at.key("ball"))?;
                 self.point(toward, &at.key("toward"))?;
-                self.not_negative(*standoff, &at.key("standoff"))?;
-                self.not_negative(*enter_cone, &at.key("enter_cone"))?;
-                self.not_negative(*leave_cone, &at.key("leave_cone"))?;
+                self.within(*standoff, Bound::LENGTH, &at.key("standoff"))?;
+                self.within(*enter_cone, Bound::ANGLE, &at.key("enter_cone"))?;
+                self.within(*leave_cone, Bound::ANGLE, &at.key("leave_cone"))?;
                 *slot = self.slot();
             }
             Schema::Dribble { ball, toward, tight } => {
                 self.point(ball, &at.key("ball"))?;
                 self.point(toward, &at.key("toward"))?;
-                self.not_negative(*tight, &at.key("tight"))?;
+                self.within(*tight, Bound::ANGLE, &at.key("tight"))?;
             }
-            Schema::Constant(vector) => self.finite_point(*vector, at)?,
+            Schema::Constant(vector) => self.source.vector_within(at, *vector, Bound::WEIGHT)?,
         }
         Ok(())
     }
 
     fn attraction(&self, controlled: f32, dead: f32, at: &Field) -> Result<()> {
-        self.not_negative(controlled, &at.key("controlled_zone"))?;
-        self.not_negative(dead, &at.key("dead_zone"))?;
+        self.within(controlled, Bound::LENGTH, &at.key("controlled_zone"))?;
+        self.within(dead, Bound::LENGTH, &at.key("dead_zone"))?;
         if dead > controlled {
             return self.fault(
                 &at.key("dead_zone"),
@@ -258,8 +270,8 @@ impl Resolver<'_> {
     }
 
     fn repulsion(&self, sphere: f32, safety: f32, at: &Field) -> Result<()> {
-        self.not_negative(sphere, &at.key("sphere"))?;
-        self.not_negative(safety, &at.key("safety"))?;
+        self.within(sphere, Bound::LENGTH, &at.key("sphere"))?;
+        self.within(safety, Bound::LENGTH, &at.key("safety"))?;
         if safety > sphere {
             return self.fault(
                 &at.key("safety"),

@@ -92,16 +92,16 @@ impl Art {
     pub(super) fn fault(&self) -> Option<Fault> {
         let hysteresis = || {
             let reason = || format!("must be less than enter, {}, not {}", self.enter, self.leave);
-            (self.leave >= self.enter).then(|| ("leave", reason()))
+            (self.leave >= self.enter).then(|| ("leave".into(), reason()))
         };
         let numbers = || {
             first_fault([
-                ("half", self.half, Bound::Positive),
-                ("turning", self.turning, Bound::AtLeast0),
-                ("enter", self.enter, Bound::Positive),
-                ("leave", self.leave, Bound::AtLeast0),
-                ("max_age", self.max_age, Bound::Positive),
-                ("rest", self.rest, Bound::AtLeast0),
+                ("half", self.half, Bound::LENGTH.positive()),
+                ("turning", self.turning, Bound::FACTOR),
+                ("enter", self.enter, Bound::FACTOR.positive()),
+                ("leave", self.leave, Bound::FACTOR),
+                ("max_age", self.max_age, Bound::SECONDS.positive()),
+                ("rest", self.rest, Bound::SECONDS),
             ])
         };
         self.places.fault().or_else(numbers).or_else(hysteresis)

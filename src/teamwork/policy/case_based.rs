@@ -55,7 +55,7 @@ impl CaseBased {
     }
 
     pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([("beyond", self.beyond, Bound::Share)])
+        first_fault([("beyond", self.beyond, Bound::SHARE)])
     }
 }
 
@@ -80,7 +80,7 @@ impl ClosestBecomesForward {
     }
 
     pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([("beyond", self.beyond, Bound::Share)])
+        first_fault([("beyond", self.beyond, Bound::SHARE)])
     }
 }
 

@@ -77,10 +77,10 @@ impl CsFreiburg {
     pub(super) fn fault(&self) -> Option<Fault> {
         self.places.fault().or_else(|| {
             first_fault([
-                ("half", self.half, Bound::Positive),
-                ("margin", self.margin, Bound::AtLeast0),
-                ("max_age", self.max_age, Bound::Positive),
-                ("rest", self.rest, Bound::AtLeast0),
+                ("half", self.half, Bound::LENGTH.positive()),
+                ("margin", self.margin, Bound::FACTOR),
+                ("max_age", self.max_age, Bound::SECONDS.positive()),
+                ("rest", self.rest, Bound::SECONDS),
             ])
         })
     }

@@ -68,11 +68,11 @@ impl ItalianGolem {
     pub(super) fn fault(&self) -> Option<Fault> {
         self.places.fault().or_else(|| {
             first_fault([
-                ("half", self.half, Bound::Positive),
-                ("possession", self.possession, Bound::AtLeast0),
-                ("lead", self.lead, Bound::AtLeast0),
-                ("max_age", self.max_age, Bound::Positive),
-                ("rest", self.rest, Bound::AtLeast0),
+                ("half", self.half, Bound::LENGTH.positive()),
+                ("possession", self.possession, Bound::FACTOR),
+                ("lead", self.lead, Bound::FACTOR),
+                ("max_age", self.max_age, Bound::SECONDS.positive()),
+                ("rest", self.rest, Bound::SECONDS),
             ])
         })
     }

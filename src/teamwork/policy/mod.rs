@@ -26,6 +26,7 @@ use bevy::prelude::Vec2;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
+use crate::data::Fault;
 use crate::protocol::role_swap::{Number, Reassignment, RoleIndex};
 pub use art::Art;
 pub use case_based::{CaseBased, ClosestBecomesForward};
@@ -205,7 +206,7 @@ impl Policy {
     }
 
     /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
+    pub fn fault(&self) -> Option<Fault> {
         match self {
             Policy::CaseBased(policy) => policy.fault(),
             Policy::ClosestBecomesForward(policy) => policy.fault(),

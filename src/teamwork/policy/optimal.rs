@@ -55,7 +55,7 @@ impl Optimal {
 
     pub(super) fn fault(&self) -> Option<Fault> {
         self.places.fault().or_else(|| {
-            first_fault([("min_gain", self.min_gain, Bound::AtLeast0), ("rest", self.rest, Bound::AtLeast0)])
+            first_fault([("min_gain", self.min_gain, Bound::LENGTH), ("rest", self.rest, Bound::SECONDS)])
         })
     }
 }

@@ -43,10 +43,10 @@ impl Places {
 
     pub(super) fn fault(&self) -> Option<Fault> {
         first_fault([
-            ("places.standoff", self.standoff, Bound::AtLeast0),
-            ("places.behind", self.behind, Bound::AtLeast0),
-            ("places.aside", self.aside, Bound::AtLeast0),
-            ("places.guard", self.guard, Bound::Share),
+            ("places.standoff", self.standoff, Bound::LENGTH),
+            ("places.behind", self.behind, Bound::LENGTH),
+            ("places.aside", self.aside, Bound::LENGTH),
+            ("places.guard", self.guard, Bound::SHARE),
         ])
     }
 }

@@ -50,9 +50,9 @@ impl Rmit {
 
     pub(super) fn fault(&self) -> Option<Fault> {
         first_fault([
-            ("bonus", self.bonus, Bound::AtLeast0),
-            ("wrong_side", self.wrong_side, Bound::AtLeast0),
-            ("rest", self.rest, Bound::AtLeast0),
+            ("bonus", self.bonus, Bound::LENGTH),
+            ("wrong_side", self.wrong_side, Bound::FACTOR),
+            ("rest", self.rest, Bound::SECONDS),
         ])
     }
 }

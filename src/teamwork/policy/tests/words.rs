@@ -37,12 +37,15 @@ fn the_defaults_are_sound() {
 #[test]
 fn a_bad_constant_is_named_with_its_field() {
     let fault = |text| read(text).fault().expect(text);
-    assert_eq!(fault("CaseBased(beyond: 1.5)"), ("beyond", "must be between 0 and 1, not 1.5".into()));
+    assert_eq!(fault("CaseBased(beyond: 1.5)"), ("beyond".into(), "must be at most 1, not 1.5".into()));
     assert_eq!(fault("ClosestBecomesForward(beyond: -1.0)").0, "beyond");
-    assert_eq!(fault("CsFreiburg(half: 0.0)"), ("half", "must be a positive number, not 0".into()));
+    assert_eq!(fault("CsFreiburg(half: 0.0)"), ("half".into(), "must be at least 0.001 m, not 0".into()));
     assert_eq!(fault("CsFreiburg(places: (guard: NaN))").0, "places.guard");
-    assert_eq!(fault("Art(enter: 1.0, leave: 1.0)"), ("leave", "must be less than enter, 1, not 1".into()));
-    assert_eq!(fault("Rmit(bonus: -0.5)"), ("bonus", "must be at least 0, not -0.5".into()));
+    assert_eq!(
+        fault("Art(enter: 1.0, leave: 1.0)"),
+        ("leave".into(), "must be less than enter, 1, not 1".into())
+    );
+    assert_eq!(fault("Rmit(bonus: -0.5)"), ("bonus".into(), "must be at least 0 m, not -0.5".into()));
     assert_eq!(fault("ItalianGolem(max_age: inf)").0, "max_age");
     assert_eq!(fault("Optimal(min_gain: -1.0)").0, "min_gain");
 }

@@ -1,0 +1,131 @@
+//! How large and how deep a strategy may be, and which numbers it may hold.
+
+use std::fmt::Write;
+
+use crate::data::Source;
+use crate::strategy::Strategy;
+
+/// A strategy of one player with these pieces.
+fn with(pieces: &str) -> String {
+    format!(
+        r#"(name: "x", robot_kinds: ["cye"], players: ["r"], kick_off: (ours: [(-1, 0)], theirs: [(-1, 0)]),
+        machines: {{"m": (start: "s", states: {{"s": (turn: Spin(90), speed: 0.5)}})}},
+        roles: {{"r": Plays(tag: "R", machine: "m", danger_zone: (min: (-1, -1), max: (1, 1)), homebases: [(0, 0)])}},
+        {pieces})"#
+    )
+}
+
+fn read(text: &str) -> Result<Strategy, String> {
+    let read = Strategy::parse(&Source::new("x.ron", text)).map_err(|error| error.to_string());
+    if let Err(error) = &read {
+        assert_eq!(error.lines().count(), 1, "{error}");
+    }
+    read
+}
+
+/// So many percepts, each made of the one before it.
+fn chain(count: usize, link: impl Fn(usize) -> String) -> String {
+    let mut percepts = String::from(r#"percepts: {"p0": Ball"#);
+    for i in 1..count {
+        write!(percepts, r#", "p{i}": {}"#, link(i - 1)).unwrap();
+    }
+    with(&format!("{percepts}}}"))
+}
+
+#[test]
+fn names_may_stand_for_names_but_not_without_end() {
+    let named = |i| format!(r#"Named("p{i}")"#);
+    assert!(read(&chain(30, named)).is_ok());
+    let error = read(&chain(900, named)).unwrap_err();
+    assert!(error.contains(": percepts.p"), "{error}");
+    assert!(error.contains("nested too deeply: 64 values inside each other at most"), "{error}");
+    let error = read(&chain(100_000, named)).unwrap_err();
+    assert!(
+        error.ends_with("percepts: the number of its pieces must be at most 1000, not 100000"),
+        "{error}"
+    );
+}
+
+#[test]
+fn names_that_use_names_twice_do_not_grow_without_end() {
+    let twice = |i| format!(r#"Midpoint(Named("p{i}"), Named("p{i}"))"#);
+    assert!(read(&chain(8, twice)).is_ok());
+    let error = read(&chain(60, twice)).unwrap_err();
+    assert!(
+        error.contains("percepts.p") && error.contains("becomes too large: 50000 values at most"),
+        "{error}"
+    );
+}
+
+#[test]
+fn all_kinds_of_pieces_are_bounded() {
+    let pieces = |kind: &str, first: &str, both: &str| {
+        let mut text = format!(r#"{kind}: {{"p0": {first}"#);
+        for i in 1..60 {
+            write!(text, r#", "p{i}": {}"#, both.replace('#', &format!("\"p{}\"", i - 1))).unwrap();
+        }
+        with(&format!("{text}}}"))
+    };
+    for (kind, first, both) in [
+        ("point_sets", "Teammates", "Union([Named(#), Named(#)])"),
+        ("features", "HasBall", "All([Is(#), Is(#)])"),
+        ("features", "HasBall", "Lasting(what: Any([Is(#), Is(#)]), seconds: 1)"),
+    ] {
+        let error = read(&pieces(kind, first, both)).unwrap_err();
+        assert!(error.contains(kind) && error.contains("becomes too large"), "{error}");
+    }
+}
+
+#[test]
+fn values_nested_too_deeply_are_an_error_with_a_place() {
+    for (open, close) in [("Not(", ")"), ("All([", "])"), ("Lasting(seconds: 1, what: ", ")")] {
+        let nested = |depth| {
+            with(&format!(r#"features: {{"f": {}HasBall{}}}"#, open.repeat(depth), close.repeat(depth)))
+        };
+        assert!(read(&nested(30)).is_ok());
+        for depth in [70, 100, 200, 10_000] {
+            let error = read(&nested(depth)).unwrap_err();
+            assert!(error.starts_with("x.ron:4:"), "{error}");
+        }
+    }
+    for bracket in ["(", "[", "{", "[(", "Some("] {
+        let error = read(&bracket.repeat(100_000)).unwrap_err();
+        assert!(error.starts_with("x.ron:1:"), "{error}");
+    }
+}
+
+#[test]
+fn every_number_has_a_bound() {
+    for (pieces, expected) in [
+        (r#"percepts: {"p": BallIn(1e30)}"#, "percepts.p: must be at most 86400 s, not 1e30"),
+        (r#"percepts: {"p": At(0, -1e9)}"#, "percepts.p[1]: must be at least -1000 m, not -1e9"),
+        (r#"percepts: {"p": Intercept(max_speed: 1e9)}"#, "max_speed: must be at most 50 m/s, not 1e9"),
+        (
+            r#"percepts: {"p": Toward(from: Ball, to: OurGoal, distance: 1e9)}"#,
+            "distance: must be at most 1000 m, not 1e9",
+        ),
+        (r#"zones: {"z": (min: (0, 0), max: (1e9, 1))}"#, "zones.z.max[0]: must be at most 1000 m, not 1e9"),
+        (r#"zones: {"z": (min: (0, 2), max: (1, 1))}"#, "zones.z: its min must be below its max"),
+        (r#"features: {"f": After(1e30)}"#, "features.f: must be at most 86400 s, not 1e30"),
+        (r#"features: {"f": Facing(point: Ball, within: 400)}"#, "within: must be at most 360°, not 400"),
+        (r#"schemas: {"s": Constant(1e30, 0)}"#, "schemas.s[0]: must be at most 1000, not 1e30"),
+        (r#"schemas: {"s": Noise(period: 1e30)}"#, "period: must be at most 86400 s, not 1e30"),
+        (r#"assemblages: {"a": WeightedSum([(1e30, "s")])}"#, "[0][0]: must be at most 1000, not 1e30"),
+        ("pitch: (1e-30, 5)", "pitch[0]: must be at least 1 m, not 1e-30"),
+        ("teamwork: (talk: (position_every: 1e30))", "position_every: must be at most 86400 s, not 1e30"),
+        ("teamwork: (talk: (claim_radius: 1e30))", "claim_radius: must be at most 1000 m, not 1e30"),
+        ("teamwork: (ball_booking: (timeout: 1e30))", "timeout: must be at most 86400 s, not 1e30"),
+    ] {
+        let error = read(&with(pieces)).unwrap_err();
+        assert!(error.starts_with("x.ron:") && error.contains(expected), "{error}");
+    }
+    for (from, to, expected) in [
+        ("Spin(90)", "Spin(1e30)", "states.s.turn: must be at most 3600°/s, not 1e30"),
+        ("speed: 0.5", "speed: 1.5", "states.s.speed: must be at most 1, not 1.5"),
+        ("homebases: [(0, 0)]", "homebases: [(0, 1e30)]", "homebases[0][1]: must be at most 1000 m"),
+        ("ours: [(-1, 0)]", "ours: [(-1e30, 0)]", "kick_off.ours[0][0]: must be at least -1000 m"),
+    ] {
+        let error = read(&with("").replace(from, to)).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+}
