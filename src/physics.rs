@@ -3,6 +3,8 @@
 //! Bodies are spawned as bevy_rapier components and registered once, when a match starts. During a match the stages work on
 //! Rapier's own body set, so a tick costs little more than Rapier itself.
 
+mod footprint;
+
 use bevy::ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
@@ -15,6 +17,7 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
+pub use footprint::{Footprint, trailer_shape, unit_shapes};
 
 pub(super) fn plugin(app: &mut App) {
     // Registering bodies runs Bevy's transform systems, which in a build with a window want threads and a resource.

@@ -1,6 +1,7 @@
 //! A match: read as a [`MatchPlan`], started in a world, played tick by tick.
 
 mod carry;
+mod line_up;
 mod plan;
 mod situation;
 mod spawn;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::line_up::LineUp;
 use super::situation::Situation;
 use crate::ball::BallKind;
 use crate::data::{AssetFolder, DataError, Fault, Field, Source, no_such};
@@ -145,8 +146,10 @@ impl MatchPlan {
         let radio = checked(&assets.file("radios", radio), Radio::fault)?;
         file.home.strategy = choice.home.clone().unwrap_or(file.home.strategy);
         file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
-        let teams =
-            [TeamPlan::read(assets, &file.home, &pitch)?, TeamPlan::read(assets, &file.away, &pitch)?];
+        let teams = [
+            TeamPlan::read(assets, &file.home, &pitch, &file.ball)?,
+            TeamPlan::read(assets, &file.away, &pitch, &file.ball)?,
+        ];
         let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
         let mut wires = WirePlan::clone(&choice.wires);
         if wires.team_numbers.is_none() {
@@ -220,7 +223,12 @@ impl MatchPlan {
 }
 
 impl TeamPlan {
-    pub(crate) fn read(assets: &AssetFolder, file: &TeamFile, pitch: &Pitch) -> Result<TeamPlan, DataError> {
+    pub(crate) fn read(
+        assets: &AssetFolder,
+        file: &TeamFile,
+        pitch: &Pitch,
+        ball: &BallKind,
+    ) -> Result<TeamPlan, DataError> {
         let path = assets.file("strategies", &file.strategy);
         let source = Source::read(&path)?;
         let strategy = Strategy::parse_for(&source, pitch)?;
@@ -228,10 +236,14 @@ impl TeamPlan {
             let message = format!("cannot be played by a `{}`: add it here if it can", file.robot);
             return Err(source.error_at(&Field::root().key("robot_kinds"), message));
         }
+        let kind = checked(&assets.file("robots", &file.robot), RobotKind::fault)?;
+        if let Some((field, message)) = LineUp::new(&kind, ball, pitch).fault(&strategy.kick_off) {
+            return Err(source.error_at(&field, message));
+        }
         Ok(TeamPlan {
             strategy_file: file.strategy.clone(),
             strategy: Arc::new(strategy),
-            kind: Arc::new(checked(&assets.file("robots", &file.robot), RobotKind::fault)?),
+            kind: Arc::new(kind),
             sensing: Arc::new(checked(&assets.file("sensing", &file.sensing), Sensing::fault)?),
         })
     }

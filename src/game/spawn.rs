@@ -18,11 +18,11 @@ use crate::ids::{MatchEntity, RobotId};
 use crate::messages::Inbox;
 use crate::motor::{Contributions, MotorDice, SteeringIntent};
 use crate::perception::Memory;
-use crate::physics::register_bodies;
+use crate::physics::{register_bodies, trailer_shape, unit_shapes};
 use crate::pilot::Pilot;
 use crate::referee::{MatchState, Orders, RobotState};
 use crate::rng::Seed;
-use crate::robot::{DriveCommand, Robot, RobotBodies, RobotKind, Trailer, jaws};
+use crate::robot::{DriveCommand, Robot, RobotBodies, RobotKind, Trailer};
 use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;
 use crate::tcm::{Tcm, TcmClient, TcmSettings};
@@ -177,7 +177,7 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
     let unit = world.spawn((parts(entry, clock), rigid)).id();
     register_bodies(world);
     let trailer = kind.trailer.as_ref().and_then(|trailer| {
-        let outline = Collider::convex_hull(&trailer.outline)?;
+        let outline = Collider::from(trailer_shape(trailer)?);
         let middle = trailer.outline.iter().sum::<Vec2>() / trailer.outline.len() as f32;
         let radius = trailer.outline.iter().map(|corner| corner.distance(middle)).fold(0.0, f32::max);
         let hitch = TypedJoint::RevoluteJoint(RevoluteJointBuilder::new().build());
@@ -200,12 +200,9 @@ fn spawn_robot(world: &mut World, entry: &Entry, clock: &Clock) -> (Entity, Opti
 
 /// Body and jaws of a drive unit, around its centre.
 fn unit_collider(kind: &RobotKind) -> Collider {
-    let half = Vec2::new(kind.body.length, kind.body.width) / 2.0;
-    let mut parts = vec![(Vec2::ZERO, 0.0, Collider::cuboid(half.x, half.y))];
-    for jaw in jaws(kind) {
-        parts.extend(Collider::convex_hull(&jaw).map(|jaw| (Vec2::ZERO, 0.0, jaw)));
-    }
-    if parts.len() == 1 { Collider::cuboid(half.x, half.y) } else { Collider::compound(parts) }
+    let mut parts: Vec<_> =
+        unit_shapes(kind).into_iter().map(|shape| (Vec2::ZERO, 0.0, Collider::from(shape))).collect();
+    if parts.len() == 1 { parts.remove(0).2 } else { Collider::compound(parts) }
 }
 
 fn rigid_body(collider: Collider, mass: f32, friction: f32, restitution: f32, pose: Pose) -> impl Bundle {

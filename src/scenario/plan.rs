@@ -8,6 +8,7 @@ use bevy::prelude::*;
 use super::check::{Known, KnownTeam, Scenario, Side, check};
 use super::event::{Dependency, Event};
 use super::file::{Referee, ScenarioFile, SideFile};
+use crate::ball::BallKind;
 use crate::clock::{Clock, TICK_HZ};
 use crate::data::{AssetFolder, DataError, Field, Source};
 use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked};
@@ -43,10 +44,11 @@ impl ScenarioPlan {
             Some(name) => checked(&assets.file("pitches", name), Pitch::fault)?,
             None => usual.pitch.clone(),
         };
-        let home = team(assets, &file.home, &pitch)?;
-        let away = team(assets, file.away.as_ref().unwrap_or(&file.home), &pitch)?;
+        let home = team(assets, &file.home, &pitch, &usual.ball)?;
+        let away = team(assets, file.away.as_ref().unwrap_or(&file.home), &pitch, &usual.ball)?;
         let known = Known {
             pitch: &pitch,
+            ball: &usual.ball,
             teams: [known(&home), if file.away.is_some() { known(&away) } else { KnownTeam::default() }],
             radios: assets.names("radios"),
         };
@@ -121,11 +123,16 @@ fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
     }
 }
 
-fn team(assets: &AssetFolder, file: &SideFile, pitch: &Pitch) -> Result<TeamPlan, DataError> {
+fn team(
+    assets: &AssetFolder,
+    file: &SideFile,
+    pitch: &Pitch,
+    ball: &BallKind,
+) -> Result<TeamPlan, DataError> {
     let SideFile { strategy, robot, sensing, .. } = file;
     let (strategy, robot, sensing) = (strategy.clone(), robot.clone(), sensing.clone());
     let names = TeamFile { strategy, robot, sensing, team_number: None };
-    TeamPlan::read(assets, &names, pitch)
+    TeamPlan::read(assets, &names, pitch, ball)
 }
 
 fn known(team: &TeamPlan) -> KnownTeam<'_> {
@@ -133,6 +140,7 @@ fn known(team: &TeamPlan) -> KnownTeam<'_> {
     let states = strategy.machines.iter().flat_map(|machine| &machine.states);
     KnownTeam {
         players: strategy.players.len(),
+        kind: Some(&team.kind),
         roles: strategy.roles.iter().map(|role| role.name.as_str()).collect(),
         activities: states.map(|state| state.name.as_str()).collect(),
     }

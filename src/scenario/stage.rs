@@ -8,6 +8,7 @@ use super::scene::{RobotScene, Scene};
 use crate::data::{DataError, Source};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
+use crate::perception::fixture;
 use crate::pitch::Pitch;
 use crate::radio::MessageCounts;
 
@@ -49,14 +50,17 @@ pub(super) fn example() -> ScenarioFile {
 /// The scenario in a text, for a pitch and strategies made up here.
 pub(super) fn checked(text: &str) -> Result<Scenario, DataError> {
     let source = Source::new("x.ron", text);
-    let pitch = pitch();
+    let pitch = fixture::pitch();
+    let kind = fixture::cye();
     let team = || KnownTeam {
         players: 4,
+        kind: Some(&kind),
         roles: vec!["goalie", "halfback", "floater", "forward"],
         activities: vec!["search", "acquire", "push"],
     };
     let radios = vec!["lossy".to_owned(), "perfect".to_owned()];
-    check(&source.parse()?, &source, &Known { pitch: &pitch, teams: [team(), team()], radios })
+    let known = Known { pitch: &pitch, ball: &fixture::BALL, teams: [team(), team()], radios };
+    check(&source.parse()?, &source, &known)
 }
 
 /// The example with other expectations.
@@ -64,11 +68,6 @@ pub(super) fn expecting(expectations: &str) -> Scenario {
     let (start, rest) = EXAMPLE.split_once("expect: [").unwrap();
     let (_, end) = rest.split_once("    ],\n").unwrap();
     checked(&format!("{start}expect: [{expectations}],\n{end}")).unwrap()
-}
-
-fn pitch() -> Pitch {
-    let text = include_str!("../../assets/pitches/middle_size_2001.ron");
-    Source::new("pitch.ron", text).parse().unwrap()
 }
 
 /// The scene of a tick, to be changed at will: four robots of home, all on and in different roles.
@@ -99,7 +98,7 @@ impl Default for Stage {
             configuration: None,
         });
         let messages = MessageCounts::default();
-        Stage { pitch: pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], messages }
+        Stage { pitch: fixture::pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], messages }
     }
 }
 

@@ -2,6 +2,7 @@
 //! place in the file.
 
 mod expectations;
+mod places;
 #[cfg(test)]
 mod tests;
 
@@ -11,12 +12,14 @@ use super::condition::Expectation;
 use super::event::{Dependency, Event, TimedEvent};
 use super::file::{Places, PlayerFile, Referee, ScenarioFile, SideFile};
 use super::watch::ticks;
+use crate::ball::BallKind;
 use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
 use crate::radio::FaultRule;
 use crate::rng::LARGEST_SEED;
+use crate::robot::RobotKind;
 
 type Result<T> = std::result::Result<T, DataError>;
 
@@ -91,6 +94,7 @@ pub struct Player {
 #[derive(Clone, Debug)]
 pub struct Known<'a> {
     pub pitch: &'a Pitch,
+    pub ball: &'a BallKind,
     /// Home first; empty for a side that does not play.
     pub teams: [KnownTeam<'a>; 2],
     /// The names of all radios.
@@ -102,6 +106,8 @@ pub struct Known<'a> {
 pub struct KnownTeam<'a> {
     /// How many robots it is for.
     pub players: usize,
+    /// `None` for a side that does not play.
+    pub kind: Option<&'a RobotKind>,
     pub roles: Vec<&'a str>,
     /// The states of all its machines.
     pub activities: Vec<&'a str>,
@@ -134,6 +140,7 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
     };
     let places = checker.places(&file.ball.at, &root.key("ball").key("at"))?;
     source.vector_within(&root.key("ball").key("velocity"), file.ball.velocity, Bound::VELOCITY)?;
+    checker.stand_apart(file, &places)?;
     for (i, rule) in file.faults.iter().enumerate() {
         checker.rule(rule, &root.key("faults").index(i))?;
     }

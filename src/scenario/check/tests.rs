@@ -104,6 +104,34 @@ fn players_are_checked() {
 }
 
 #[test]
+fn what_stands_in_something_else_is_refused_with_both_places() {
+    for (part, instead, expected) in [
+        (
+            "at: (-2.2, 0.8)",
+            "at: (-1.25, -1.3)",
+            "x.ron:10:29: home.players[1].at: home 1 at (-1.25, -1.3) would stand in home 2, which is at \
+             (-1.2, -1) by home.players[0].at",
+        ),
+        (
+            "at: (-2.2, 0.8)",
+            "at: (-4.2, 1.5)",
+            "home.players[1].at: home 1 at (-4.2, 1.5) would stand in a wall",
+        ),
+        (
+            "at: (-1.5, 0.5)",
+            "at: (-2.6, 0.8)",
+            "x.ron:14:16: ball.at: the ball at (-2.6, 0.8) would stand in home 1, which is at (-2.2, 0.8) by \
+             home.players[1].at",
+        ),
+        ("at: (-1.5, 0.5)", "at: (-1.5, 2.45)", "ball.at: the ball at (-1.5, 2.45) would stand in a wall"),
+    ] {
+        let error = trouble(part, instead);
+        assert!(error.contains(expected), "{error}");
+    }
+    assert!(checked(&EXAMPLE.replacen("at: (-1.5, 0.5)", "at: (-1.85, 0.8)", 1)).is_ok(), "before its jaws");
+}
+
+#[test]
 fn the_script_is_checked() {
     for (instead, expected) in [
         ("at: -1, what: Heal", "script[0].at: must be at least 0 s, not -1"),
