@@ -4,12 +4,13 @@
 //! Rapier's own body set, so a tick costs little more than Rapier itself.
 
 mod footprint;
+mod room;
 
 use bevy::ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
-use bevy_rapier2d::rapier::dynamics::{IntegrationParameters, RigidBody as Body};
+use bevy_rapier2d::rapier::dynamics::{IntegrationParameters, RigidBody as Body, RigidBodySet};
 use bevy_rapier2d::rapier::geometry::ContactPair;
 use bevy_rapier2d::rapier::math::rotation_from_angle;
 
@@ -18,6 +19,7 @@ use crate::geometry::{Pose, Twist};
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
 pub use footprint::{Footprint, trailer_shape, unit_shapes};
+pub use room::Room;
 
 pub(super) fn plugin(app: &mut App) {
     // Registering bodies runs Bevy's transform systems, which in a build with a window want threads and a resource.
@@ -77,8 +79,13 @@ impl Bodies<'_, '_> {
         self.set.bodies.get_mut(handle.0)
     }
 
+    pub fn pose(&self, handle: &RapierRigidBodyHandle) -> Option<Pose> {
+        let body = self.get(handle)?;
+        Some(Pose { position: body.translation(), heading: body.rotation().angle() })
+    }
+
     /// Puts a body somewhere, at rest.
-    pub fn place(&mut self, handle: &RapierRigidBodyHandle, pose: Pose) {
+    fn place(&mut self, handle: &RapierRigidBodyHandle, pose: Pose) {
         if let Some(body) = self.get_mut(handle) {
             body.set_translation(pose.position, true);
             body.set_rotation(rotation_from_angle(pose.heading), true);
@@ -222,6 +229,7 @@ pub(crate) fn step(
     let simulation = &mut *simulation;
     let joints = &mut *joints;
     simulation.integration_parameters.dt = clock.dt;
+    limit_speeds(&mut bodies.bodies);
     simulation.pipeline.step(
         Vec2::ZERO,
         &simulation.integration_parameters,
@@ -236,6 +244,22 @@ pub(crate) fn step(
         &(),
         &(),
     );
+}
+
+/// The fastest that a body moves, m/s, and turns, rad/s, however it is pushed.
+const FASTEST: f32 = 50.0;
+const FASTEST_TURN: f32 = 100.0;
+
+fn limit_speeds(bodies: &mut RigidBodySet) {
+    let is_fast = |body: &Body| body.linvel().length() > FASTEST || body.angvel().abs() > FASTEST_TURN;
+    // Whatever is borrowed mutably counts as changed.
+    let fast: Vec<_> = bodies.iter().filter(|(_, body)| is_fast(body)).map(|(handle, _)| handle).collect();
+    for handle in fast {
+        if let Some(body) = bodies.get_mut(handle) {
+            body.set_linvel(body.linvel().clamp_length_max(FASTEST), true);
+            body.set_angvel(body.angvel().clamp(-FASTEST_TURN, FASTEST_TURN), true);
+        }
+    }
 }
 
 fn read_back(bodies: Bodies, mut truth: Query<(&RapierRigidBodyHandle, &mut Pose, &mut Twist)>) {

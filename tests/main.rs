@@ -6,6 +6,7 @@ mod command_line;
 mod corpus;
 mod first_messages;
 mod network;
+mod numbers;
 mod play;
 mod policies;
 mod radio;

@@ -12,7 +12,7 @@ use crate::handling::Handling;
 use crate::ids::{RobotId, Team};
 use crate::motor::SteeringIntent;
 use crate::perception::Memory;
-use crate::physics::Bodies;
+use crate::physics::Room;
 use crate::pitch::Pitch;
 use crate::referee::{Calls, Decision, MatchState, Orders, Phase, RuleBook, judge};
 use crate::robot::{DriveCommand, OffPitch, Robot, RobotBodies};
@@ -28,18 +28,32 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 fn place_ball(
-    calls: Res<Calls>,
-    mut bodies: Bodies,
+    (state, calls): (Res<MatchState>, Res<Calls>),
+    mut room: Room,
     ball: Single<(&RapierRigidBodyHandle, &mut Pose, &mut Twist, &mut Rolling), With<Ball>>,
+    robots: Query<(&RobotId, &RobotBodies)>,
 ) {
     let (handle, mut pose, mut twist, mut rolling) = ball.into_inner();
     for call in &calls.0 {
         if let Decision::BallPlaced { at, .. } = call {
-            *pose = Pose { position: *at, heading: 0.0 };
+            let is_lifted = |id: RobotId| calls.0.iter().any(|call| moves(call, id, &state));
+            let lifted = robots.iter().filter(|(id, _)| is_lifted(**id)).flat_map(|(_, bodies)| bodies.all());
+            let wanted = Pose { position: *at, heading: 0.0 };
+            *pose = room.put_down(&[*handle], wanted, &lifted.collect::<Vec<_>>());
             *twist = Twist::default();
             *rolling = Rolling::default();
-            bodies.place(handle, *pose);
         }
+    }
+}
+
+/// Whether people carry a robot somewhere by a decision.
+fn moves(call: &Decision, id: RobotId, state: &MatchState) -> bool {
+    match call {
+        Decision::RobotsPlaced { .. } => !state.is_removed(id),
+        Decision::RobotReturned { robot, .. }
+        | Decision::RobotPlaced { robot, .. }
+        | Decision::RobotRemoved { robot, .. } => *robot == id,
+        _ => false,
     }
 }
 
@@ -67,10 +81,15 @@ pub struct Carried {
 fn place_robots(
     clock: Res<Clock>,
     (pitch, state, strategies, calls): (Res<Pitch>, Res<MatchState>, Res<Strategies>, Res<Calls>),
-    mut bodies: Bodies,
+    mut room: Room,
     mut commands: Commands,
     mut robots: Query<Carried, Without<Ball>>,
 ) {
+    let is_lifted = |id: RobotId| calls.0.iter().any(|call| moves(call, id, &state));
+    let mut lifted: Vec<(RobotId, RapierRigidBodyHandle)> = Vec::new();
+    for robot in robots.iter().filter(|robot| is_lifted(*robot.id)) {
+        lifted.extend(robot.handles.all().into_iter().map(|handle| (*robot.id, handle)));
+    }
     for call in &calls.0 {
         let kick_off = match *call {
             Decision::RobotsPlaced { kick_off } => Some(Team::BOTH.map(|team| {
@@ -86,19 +105,17 @@ fn place_robots(
         for mut robot in robots.iter_mut().sort::<&RobotId>() {
             let id = *robot.id;
             let ends = state.attacking(id.team);
+            if !moves(call, id, &state) {
+                continue;
+            }
             let at = match *call {
-                Decision::RobotsPlaced { .. } if !state.is_removed(id) => {
+                Decision::RobotsPlaced { .. } => {
                     let poses = kick_off.as_ref().map(|both| &both[id.team.index()]);
                     let own = poses.and_then(|poses| poses.iter().find(|(number, _)| *number == id.number));
                     ends.turn_pose(own.map_or_else(Pose::default, |(_, pose)| *pose))
                 }
-                Decision::RobotReturned { robot, at } | Decision::RobotPlaced { robot, at }
-                    if robot == id =>
-                {
-                    at
-                }
-                Decision::RobotRemoved { robot, .. } if robot == id => beside_the_pitch(&pitch, id),
-                _ => continue,
+                Decision::RobotReturned { at, .. } | Decision::RobotPlaced { at, .. } => at,
+                _ => beside_the_pitch(&pitch, id),
             };
             match call {
                 Decision::RobotReturned { .. } => {
@@ -109,7 +126,10 @@ fn place_robots(
                 }
                 _ => {}
             }
-            robot.put_down(at, ends.turn_pose(at), &mut bodies);
+            lifted.retain(|(other, _)| *other != id);
+            let in_the_air: Vec<_> = lifted.iter().map(|(_, handle)| *handle).collect();
+            let at = room.put_down(&robot.handles.all(), at, &in_the_air);
+            robot.put_down(at, ends.turn_pose(at));
             let strategy = strategies.of(id.team);
             let history = std::mem::take(&mut robot.activity.history);
             *robot.activity = Activity { history, ..Activity::new(strategy, robot.role.0, clock.tick) };
@@ -147,11 +167,7 @@ fn tell_robots(
 }
 
 impl CarriedItem<'_, '_> {
-    fn put_down(&mut self, at: Pose, in_team_frame: Pose, bodies: &mut Bodies) {
-        bodies.place(&self.handles.unit, at);
-        if let Some(trailer) = &self.handles.trailer {
-            bodies.place(trailer, at);
-        }
+    fn put_down(&mut self, at: Pose, in_team_frame: Pose) {
         *self.pose = at;
         *self.twist = Twist::default();
         *self.command = DriveCommand::idle(&self.robot.kind);

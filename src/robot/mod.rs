@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
+use smallvec::SmallVec;
 
 pub use condition::{Ailment, Condition, Recall};
 pub use gait::Gait;
@@ -103,6 +104,13 @@ impl DriveCommand {
 pub struct RobotBodies {
     pub unit: RapierRigidBodyHandle,
     pub trailer: Option<RapierRigidBodyHandle>,
+}
+
+impl RobotBodies {
+    /// The drive unit and, if there is one, the trailer.
+    pub fn all(&self) -> SmallVec<[RapierRigidBodyHandle; 2]> {
+        [Some(self.unit), self.trailer].into_iter().flatten().collect()
+    }
 }
 
 /// On a robot that the referee has taken off the pitch.

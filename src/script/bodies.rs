@@ -5,16 +5,17 @@ use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
 use super::requests::{Request, Requests, Shove};
 use crate::ball::{Ball, Rolling};
+use crate::data::Bound;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
-use crate::physics::Bodies;
+use crate::physics::Room;
 use crate::robot::RobotBodies;
 
 type Rolled<'a> = (&'a RapierRigidBodyHandle, &'a mut Pose, &'a mut Twist, &'a mut Rolling);
 
 pub(super) fn shove_bodies(
     requests: Res<Requests>,
-    mut bodies: Bodies,
+    mut room: Room,
     ball: Single<Rolled, (With<Ball>, Without<RobotId>)>,
     mut robots: Query<(&RobotId, &RobotBodies, &mut Pose, &mut Twist)>,
 ) {
@@ -23,34 +24,35 @@ pub(super) fn shove_bodies(
         let Request::Body(shove) = request else { continue };
         match *shove {
             Shove::Ball { at, velocity } => {
-                *pose = Pose { position: at, heading: 0.0 };
+                let velocity = Bound::VELOCITY.clamp_vector(velocity);
+                let wanted = Pose { position: Bound::PLACE.clamp_vector(at), heading: 0.0 };
+                *pose = room.put_down(&[*handle], wanted, &[]);
                 *twist = Twist { linear: velocity, angular: 0.0 };
                 rolling.0 = velocity;
-                bodies.place(handle, *pose);
-                if let Some(body) = bodies.get_mut(handle) {
+                if let Some(body) = room.bodies.get_mut(handle) {
                     body.set_linvel(velocity, true);
                 }
             }
             Shove::Push { robot, by } => {
                 let found = robots.iter_mut().find(|(id, ..)| **id == robot);
                 let Some((_, handles, _, mut twist)) = found else { continue };
+                let by = Bound::VELOCITY.clamp_vector(by);
                 twist.linear += by;
-                for handle in [Some(handles.unit), handles.trailer].into_iter().flatten() {
-                    if let Some(body) = bodies.get_mut(&handle) {
+                for handle in handles.all() {
+                    if let Some(body) = room.bodies.get_mut(&handle) {
                         let velocity = body.linvel() + by;
                         body.set_linvel(velocity, true);
                     }
                 }
             }
-            Shove::Kidnap { robot, to } => {
+            Shove::Kidnap { robot, to } if to.is_finite() => {
                 let found = robots.iter_mut().find(|(id, ..)| **id == robot);
                 let Some((_, handles, mut pose, mut twist)) = found else { continue };
-                (*pose, *twist) = (to, Twist::default());
-                bodies.place(&handles.unit, to);
-                if let Some(trailer) = &handles.trailer {
-                    bodies.place(trailer, to);
-                }
+                let place = Bound::PLACE.clamp_vector(to.position);
+                let wanted = Pose { position: place, ..to };
+                (*pose, *twist) = (room.put_down(&handles.all(), wanted, &[]), Twist::default());
             }
+            Shove::Kidnap { .. } => {}
         }
     }
 }
