@@ -27,6 +27,8 @@ use crate::strategy::{Part, Play, RoleSpec, Strategies, Strategy};
 use crate::teamwork::{Role, TeamPicture};
 use crate::world_model::WorldModel;
 
+pub use homebase::Searched;
+
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, choose_activities.in_set(TickSystems::Behaviour));
 }
@@ -42,6 +44,8 @@ pub struct Activity {
     pub since: u64,
     /// Where the robot goes when it has nothing better to do, m in the team frame.
     pub homebase: Vec2,
+    /// The homebases from which it has looked for the ball in vain.
+    pub searched: Searched,
     /// The last transitions, oldest first.
     pub history: VecDeque<Taken>,
 }
@@ -69,7 +73,14 @@ impl Activity {
         let play = played(&strategy.roles[acting_as]);
         let state = strategy.machines[play.machine].start;
         let homebase = play.homebases[0];
-        Activity { acting_as, state, since: tick, homebase, history: VecDeque::new() }
+        Activity {
+            acting_as,
+            state,
+            since: tick,
+            homebase,
+            searched: Searched::new(),
+            history: VecDeque::new(),
+        }
     }
 
     /// The machine that the robot runs.
@@ -179,7 +190,10 @@ fn choose_activities(
         memory.begin_decision();
         choose_sub_role(&senses(&activity), strategy, memory, &mut activity, clock.tick);
         let play = played(&strategy.roles[activity.acting_as]);
-        activity.homebase = homebase::choose(play, activity.homebase, &senses(&activity));
+        let state = strategy.state(play.machine, activity.state);
+        let now = senses(&activity);
+        homebase::note_search(play, state, &mut activity.searched, &now);
+        activity.homebase = homebase::choose(play, activity.homebase, &activity.searched, &now);
         take_transition(&senses(&activity), strategy, memory, &mut activity, clock.tick);
     }
 }

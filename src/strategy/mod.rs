@@ -64,6 +64,7 @@ pub struct Play {
     pub machine: usize,
     /// The zone of control (figure 2).
     pub danger_zone: Zone,
+    /// A robot that has looked around for the ball from one of them in vain goes on to the next.
     pub homebases: Vec<Vec2>,
     pub homebase_rule: HomebaseRule,
 }
