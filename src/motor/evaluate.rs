@@ -4,10 +4,10 @@ use bevy::prelude::*;
 
 use crate::perception::{Memory, Perception};
 use crate::rng::Dice;
-use crate::schemas::docking::{Docking, dock_behind};
+use crate::schemas::docking::{DockLatch, Docking, dock_behind, misalignment};
 use crate::schemas::dribbling::dribble;
 use crate::schemas::operators::shifted;
-use crate::schemas::{attraction, avoidance, swirl};
+use crate::schemas::{attraction, avoidance, swirl, walls};
 use crate::strategy::language::{Points, Schema};
 
 /// The vector of a schema: its angle is where to go, its length how fast, 0 to 1 and more where it is urgent. `None` while
@@ -47,7 +47,7 @@ pub fn evaluate(schema: &Schema, senses: &Perception, memory: &mut Memory, dice:
             };
             let ball = senses.relative(ball, memory)?;
             let goal = senses.relative(toward, memory)?;
-            dock_behind(ball, goal, &docking, memory.dock_latch(*slot))
+            dock(ball, goal, &docking, senses, memory.dock_latch(*slot))
         }
         Schema::Dribble { ball, toward, tight } => {
             let ball = senses.relative(ball, memory)?;
@@ -56,4 +56,80 @@ pub fn evaluate(schema: &Schema, senses: &Perception, memory: &mut Memory, dice:
         }
         Schema::Constant(vector) => *vector,
     })
+}
+
+/// A robot's centre stays at least this far from the walls, m: half the width of a body and a little.
+const CLEARANCE: f32 = 0.25;
+/// A ball is before the robot's body up to this gap and this far off the middle, m.
+const BEFORE: (f32, f32) = (0.1, 0.055);
+
+/// Docks behind the ball as seen from the goal; where a wall leaves no room there, as there is room, and sweeps the ball out.
+fn dock(ball: Vec2, goal: Vec2, docking: &Docking, senses: &Perception, latch: &mut DockLatch) -> Vec2 {
+    let pose = senses.model.pose;
+    let place = on_pitch(pose.position + ball, senses);
+    let shot = (goal - ball).normalize_or_zero();
+    let room = senses.pitch.margin() - CLEARANCE;
+    let way_in = walls::way_in(place, shot, docking.standoff, |at| senses.pitch.holds(at, room));
+    if way_in == shot {
+        return dock_behind(ball, goal, docking, latch);
+    }
+    let threat = (-senses.pitch.goal_centre() - place).normalize_or_zero();
+    let ahead = pose.to_local(pose.position + ball);
+    let gap = ahead.x - senses.front - senses.ball_radius;
+    let before = ahead.x > 0.0 && gap <= BEFORE.0 && ahead.y.abs() <= BEFORE.1;
+    if before && misalignment(ball, goal) > docking.enter_cone {
+        return walls::sweep(ball, shot, threat, pose.heading);
+    }
+    dock_behind(ball, ball + way_in * (goal - ball).length(), docking, latch)
+}
+
+/// Where a ball can be that is believed to be at a place, since walls stand where they stand.
+fn on_pitch(place: Vec2, senses: &Perception) -> Vec2 {
+    let pitch = senses.pitch;
+    let mut half = pitch.half_size() + pitch.margin() - senses.ball_radius;
+    if place.y.abs() < pitch.goal.width / 2.0 {
+        half.x += pitch.goal.depth;
+    }
+    place.clamp(-half, half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::perception::fixture::Situation;
+
+    /// Where a robot docks to that looks in a direction, degrees, with the ball at a place.
+    fn docked(robot: (f32, f32, f32), ball: Vec2) -> Vec2 {
+        let situation = Situation::at(robot.0, robot.1, robot.2).ball(ball.x, ball.y);
+        let senses = situation.senses();
+        let goal = senses.pitch.goal_centre() - senses.model.pose.position;
+        let docking = Docking { standoff: 0.55, ..Docking::default() };
+        let ball = ball - senses.model.pose.position;
+        dock(ball, goal, &docking, &senses, &mut DockLatch::default())
+    }
+
+    #[test]
+    fn a_ball_at_the_side_wall_is_pushed_along_it() {
+        // In line with the wall and half a metre behind the ball, where there is no room in line with the goal.
+        let course = docked((-0.5, 2.2, 0.0), Vec2::new(0.0, 2.39));
+        assert!(course.x > 0.8, "{course}");
+    }
+
+    #[test]
+    fn a_ball_in_a_corner_is_swept_out_by_who_has_it_before_its_scoop() {
+        // Nose to the corner: the way out is to the left in the south, to the right in the north.
+        for side in [1.0, -1.0] {
+            let robot = Vec2::new(-4.21, side * 2.21);
+            let course = docked((robot.x, robot.y, side * 135.0), Vec2::new(-4.39, side * 2.39));
+            assert!(course.x > 0.0 && course.y * side > 0.0, "{course}");
+        }
+    }
+
+    #[test]
+    fn a_ball_beside_the_own_goal_is_taken_from_the_front_and_swept_away_from_it() {
+        let course = docked((-3.6, 1.3, 180.0), Vec2::new(-4.39, 1.3));
+        assert!(course.x < -0.9, "{course}");
+        let course = docked((-4.13, 1.3, 180.0), Vec2::new(-4.39, 1.3));
+        assert!(course.y > 0.9, "{course}");
+    }
 }

@@ -12,3 +12,4 @@ pub mod memory;
 pub mod noise;
 pub mod operators;
 pub mod swirl;
+pub mod walls;

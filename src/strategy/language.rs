@@ -280,7 +280,7 @@ pub enum Schema {
         #[serde(skip)]
         slot: usize,
     },
-    /// Gets behind the ball, facing `toward`.
+    /// Gets behind the ball, facing `toward`; where a wall leaves no room there, comes to it from elsewhere and sweeps it out.
     DockBehind {
         #[serde(default = "ball")]
         ball: Point,
