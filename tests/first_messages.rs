@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::clock::{Clock, TICK_HZ};
+use touchline::data::AssetKind;
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
@@ -168,13 +169,7 @@ fn check_firsts(strategy: &str, plan: &MatchPlan, game: &mut Match, truths: &[Tr
 
 #[test]
 fn the_first_message_of_each_kind_is_true_or_not_sent() {
-    let folder = assets().file("strategies", "chaos_b3p");
-    let folder = folder.parent().expect("strategies lie in a folder");
-    let files =
-        std::fs::read_dir(folder).expect("it can be read").map(|entry| entry.expect("it can be read").path());
-    let mut strategies: Vec<String> =
-        files.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect();
-    strategies.sort_unstable();
+    let strategies = assets().names(AssetKind::Strategy);
     let checked: BTreeMap<&str, usize> =
         strategies.iter().map(|strategy| (strategy.as_str(), check(strategy))).collect();
     assert!(checked.len() >= 12, "{checked:?}");

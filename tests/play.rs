@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
-use touchline::data::Source;
+use touchline::data::{AssetKind, Source};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::RobotId;
@@ -95,7 +95,7 @@ fn whole_matches_have_goals_and_nobody_leaves_or_hangs() {
 
 #[test]
 fn perfect_sensing_is_a_switch() {
-    let source = Source::read(assets().file("sensing", "perfect")).expect("the preset can be read");
+    let source = Source::read(assets().file(AssetKind::Sensing, "perfect")).expect("the preset can be read");
     let perfect: Arc<Sensing> = Arc::new(source.parse().expect("the preset is sound"));
     let mut plan = friendly(1, 0.5);
     plan.teams.iter_mut().for_each(|team| team.sensing = perfect.clone());

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use touchline::data::ron_options;
+use touchline::data::{AssetKind, ron_options};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::messages::MessageKind;
@@ -75,7 +75,7 @@ fn every_policy_swaps_roles_in_a_match_and_leaves_each_to_one_robot() {
 /// The halfback of figure 8 loses the ball while the forward is nearest to it.
 #[test]
 fn the_case_based_rules_decide_in_the_situation_of_figure_8() {
-    let path = assets().file("scenarios", "swap_figure_8");
+    let path = assets().file(AssetKind::Scenario, "swap_figure_8");
     let scenario = ScenarioPlan::read(&assets(), &path).expect("the shipped scenario is sound");
     let wanted = [
         ("CaseBased()", ["goalie", "forward", "halfback", "floater"]),

@@ -3,6 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+use touchline::data::AssetKind;
 use touchline::scenario::{Report, ScenarioPlan};
 
 use crate::support::assets;
@@ -10,9 +11,10 @@ use crate::support::assets;
 fn plans() -> Vec<ScenarioPlan> {
     let assets = assets();
     let read = |name: &String| {
-        ScenarioPlan::read(&assets, &assets.file("scenarios", name)).unwrap_or_else(|error| panic!("{error}"))
+        ScenarioPlan::read(&assets, &assets.file(AssetKind::Scenario, name))
+            .unwrap_or_else(|error| panic!("{error}"))
     };
-    assets.names("scenarios").iter().map(read).collect()
+    assets.names(AssetKind::Scenario).iter().map(read).collect()
 }
 
 /// Plays all scenarios on two threads; the reports are in the scenarios' order.

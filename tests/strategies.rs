@@ -1,6 +1,6 @@
 //! What people see when a strategy file is wrong: file, line, column and field, in one line.
 
-use touchline::data::Source;
+use touchline::data::{AssetKind, Source};
 use touchline::strategy::Strategy;
 
 use crate::support::{assets, digest_of, friendly, strategy_text};
@@ -10,16 +10,17 @@ fn message_for(from: &str, to: &str) -> String {
     let (_, text) = strategy_text("hammerheads_2001");
     assert!(text.contains(from), "`{from}` is not in the strategy");
     let source = Source::new("hammerheads_2001.ron", text.replacen(from, to, 1));
-    Strategy::parse(&source).expect_err("the strategy is wrong").to_string()
+    Strategy::parse(&assets(), &source, None).expect_err("the strategy is wrong").to_string()
 }
 
 #[test]
 fn every_shipped_strategy_is_sound() {
-    let names = assets().names("strategies");
+    let names = assets().names(AssetKind::Strategy);
     assert!(names.len() >= 2);
     for name in names {
-        let path = assets().file("strategies", &name);
-        let strategy = Strategy::read(&path).unwrap_or_else(|error| panic!("{error}"));
+        let path = assets().file(AssetKind::Strategy, &name);
+        let strategy = Strategy::read(&assets(), &path, None).strategy;
+        let strategy = strategy.unwrap_or_else(|error| panic!("{error}"));
         assert!(!strategy.players.is_empty());
     }
 }
@@ -58,8 +59,9 @@ fn faults_are_named_with_their_place() {
 
 #[test]
 fn a_missing_file_is_said_to_be_missing() {
-    let error = Strategy::read(&assets().file("strategies", "nobody")).expect_err("there is no such file");
-    let message = error.to_string();
+    let path = assets().file(AssetKind::Strategy, "nobody");
+    let read = Strategy::read(&assets(), &path, None);
+    let message = read.strategy.expect_err("there is no such file").to_string();
     assert!(message.contains("nobody.ron") && message.contains("hammerheads_2001"), "{message}");
 }
 
@@ -69,7 +71,7 @@ fn the_strategy_in_the_readme_can_be_played() {
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README.md");
     let example = readme.split("```ron").nth(1).and_then(|rest| rest.split("```").next());
     let source = Source::new("README.md", example.expect("the README has an example"));
-    let strategy = Strategy::parse(&source).unwrap_or_else(|error| panic!("{error}"));
+    let strategy = Strategy::parse(&assets(), &source, None).unwrap_or_else(|error| panic!("{error}"));
     let mut plan = friendly(1, 0.3);
     plan.teams[0].strategy = strategy.into();
     assert_ne!(digest_of(&plan), digest_of(&friendly(1, 0.3)));

@@ -1,5 +1,6 @@
 //! `touchline check`: reads assets as a match would and says what is wrong with them, and plays scenarios.
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -7,15 +8,14 @@ use clap::Args;
 
 use super::ending::{CommandError, Ending};
 use super::interrupt::Interrupt;
+use super::kinds;
 use super::whole_file::{check_writable, write_whole};
-use crate::data::{AssetFolder, DataError, Source};
-use crate::game::{Choice, MatchPlan};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 use crate::scenario::{Report, ScenarioPlan, junit};
-use crate::strategy::Strategy;
 
 #[derive(Args, Debug, Default)]
 pub(super) struct Check {
-    /// Strategy and scenario files; everything in the asset folder, if none is given.
+    /// Files of any kind; everything in the asset folder, if none is given.
     files: Vec<PathBuf>,
     /// Also play each scenario without the mechanism that it depends on: then it must fail.
     #[arg(long)]
@@ -29,7 +29,11 @@ pub(super) struct Check {
 struct Findings<'a, W> {
     out: &'a mut W,
     interrupt: Interrupt,
+    /// How many files of each kind there were.
+    files: BTreeMap<AssetKind, usize>,
     faults: usize,
+    /// The scenarios' names, and whose they are.
+    scenarios: BTreeMap<String, PathBuf>,
     reports: Vec<Report>,
 }
 
@@ -38,15 +42,21 @@ impl Check {
         if let Some(path) = &self.junit {
             check_writable(path).map_err(CommandError::file(path))?;
         }
-        let mut findings = Findings { out, interrupt: Interrupt::listen(), faults: 0, reports: Vec::new() };
+        let mut findings = Findings {
+            out,
+            interrupt: Interrupt::listen(),
+            files: BTreeMap::new(),
+            faults: 0,
+            scenarios: BTreeMap::new(),
+            reports: Vec::new(),
+        };
         if self.files.is_empty() {
             self.check_all(assets, &mut findings)?;
         }
         for file in &self.files {
-            if is_scenario(file) {
-                self.play(assets, file, &mut findings)?;
-            } else {
-                findings.tell(file, Strategy::read(file).map(drop))?;
+            match kinds::kind_of(file) {
+                Ok(kind) => self.check(assets, kind, file, &mut findings)?,
+                Err(error) => findings.tell(file, Err(error))?,
             }
         }
         if self.ablate {
@@ -59,31 +69,42 @@ impl Check {
         Ok(findings.conclude()?)
     }
 
-    fn check_all(&self, assets: &AssetFolder, findings: &mut Findings<impl Write>) -> io::Result<()> {
-        for name in assets.names("strategies") {
-            let path = assets.file("strategies", &name);
-            findings.tell(&path, Strategy::read(&path).map(drop))?;
+    /// Checks what is in each kind's folder as that kind, which is what it is taken for in a match.
+    fn check_all(
+        &self,
+        assets: &AssetFolder,
+        findings: &mut Findings<impl Write>,
+    ) -> Result<(), CommandError> {
+        for kind in AssetKind::ALL {
+            for path in assets.files(kind)? {
+                self.check(assets, kind, &path, findings)?;
+            }
         }
-        for radio in assets.names("radios") {
-            let choice = Choice { radio: Some(radio.clone()), ..Choice::default() };
-            findings.tell(&assets.file("radios", &radio), MatchPlan::read(assets, &choice).map(drop))?;
-        }
-        for name in assets.names("matches") {
-            let path = assets.file("matches", &name);
-            let choice = Choice { file: Some(name), ..Choice::default() };
-            findings.tell(&path, MatchPlan::read(assets, &choice).map(drop))?;
-        }
-        for name in assets.names("scenarios") {
-            self.play(assets, &assets.file("scenarios", &name), findings)?;
+        if findings.files.is_empty() {
+            return Err(DataError::new(assets.root(), "there are no assets to check").into());
         }
         Ok(())
     }
 
-    fn play(&self, assets: &AssetFolder, path: &Path, findings: &mut Findings<impl Write>) -> io::Result<()> {
-        let plan = match ScenarioPlan::read(assets, path) {
-            Ok(plan) => plan,
-            Err(error) => return findings.tell(path, Err(error)),
-        };
+    fn check(
+        &self,
+        assets: &AssetFolder,
+        kind: AssetKind,
+        path: &Path,
+        findings: &mut Findings<impl Write>,
+    ) -> io::Result<()> {
+        *findings.files.entry(kind).or_default() += 1;
+        match kinds::read(assets, kind, path) {
+            Ok(None) => findings.tell(path, Ok(())),
+            Ok(Some(plan)) => match findings.know(&plan) {
+                Ok(()) => self.play(&plan, findings),
+                fault => findings.tell(path, fault),
+            },
+            Err(error) => findings.tell(path, Err(error)),
+        }
+    }
+
+    fn play(&self, plan: &ScenarioPlan, findings: &mut Findings<impl Write>) -> io::Result<()> {
         let dependency = plan.scenario.depends_on.filter(|_| self.ablate);
         for without in [None].into_iter().chain(dependency.map(Some)) {
             if !findings.interrupt.is_asked() {
@@ -95,11 +116,6 @@ impl Check {
     }
 }
 
-/// A scenario expects something; a strategy does not.
-fn is_scenario(path: &Path) -> bool {
-    Source::read(path).is_ok_and(|source| source.text.contains("expect:"))
-}
-
 impl<W: Write> Findings<'_, W> {
     fn tell(&mut self, what: &Path, result: Result<(), DataError>) -> io::Result<()> {
         match result {
@@ -109,6 +125,26 @@ impl<W: Write> Findings<'_, W> {
                 writeln!(self.out, "fault {error}")
             }
         }
+    }
+
+    /// Remembers a scenario's name, by which people tell the results.
+    fn know(&mut self, plan: &ScenarioPlan) -> Result<(), DataError> {
+        let path = self.scenarios.entry(plan.scenario.name.clone()).or_insert_with(|| plan.path.clone());
+        if *path == plan.path {
+            return Ok(());
+        }
+        let message = format!("is also the name of {}", path.display());
+        Err(Source::read(&plan.path)?.error_at(&Field::root().key("name"), message))
+    }
+
+    /// How many files of each kind were read.
+    fn counts(&self) -> String {
+        let counts = self.files.iter().map(|(kind, count)| match count {
+            1 => format!("1 {kind}"),
+            _ => format!("{count} {}", kind.plural()),
+        });
+        let counts: Vec<String> = counts.collect();
+        if counts.is_empty() { String::new() } else { format!("{}: ", counts.join(", ")) }
     }
 
     fn report(&mut self, report: Report) -> io::Result<()> {
@@ -140,7 +176,7 @@ impl<W: Write> Findings<'_, W> {
         } else {
             ("all sound".into(), Ending::Done)
         };
-        writeln!(self.out, "{words}")?;
+        writeln!(self.out, "{}{words}", self.counts())?;
         Ok(ending)
     }
 }

@@ -3,6 +3,7 @@
 mod check;
 mod ending;
 mod interrupt;
+mod kinds;
 mod options;
 mod play;
 mod referee_box;

@@ -8,7 +8,7 @@ use clap::Args;
 use super::ending::{CommandError, Ending, tell};
 use super::interrupt::Interrupt;
 use super::options::{HostOptions, MatchOptions, SeedOption};
-use crate::data::{AssetFolder, DataError};
+use crate::data::{AssetFolder, AssetKind, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
 use crate::rng::DEFAULT_SEED;
@@ -34,7 +34,7 @@ pub(super) struct Play {
 impl Play {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(name) = &self.scenario {
-            return self.run_scenario(assets, &assets.file("scenarios", name), out);
+            return self.run_scenario(assets, &assets.file(AssetKind::Scenario, name), out);
         }
         let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
         let plan = MatchPlan::read(assets, &choice)?;

@@ -1,9 +1,11 @@
 //! Where the files are: the folder `assets` with one folder in it for each kind of file.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::error::DataError;
+use super::kind::AssetKind;
 
 /// The environment variable that names the folder.
 const VARIABLE: &str = "TOUCHLINE_ASSETS";
@@ -44,19 +46,41 @@ impl AssetFolder {
         &self.root
     }
 
-    /// The file of a kind with a name: `hammerheads_2001` is `<root>/<kind>/hammerheads_2001.ron`, whereas a name that
-    /// ends in `.ron` is a path and taken as it is. The file need not exist.
-    pub fn file(&self, kind: &str, name: &str) -> PathBuf {
-        if name.ends_with(".ron") {
-            PathBuf::from(name)
+    /// The file that a name stands for. A [path](is_path) is taken as it is; another name is that of a file of the kind,
+    /// `hammerheads_2001` for `<root>/strategies/hammerheads_2001.ron`, or else of a file that is there under just that
+    /// name. The file need not exist.
+    pub fn file(&self, kind: AssetKind, name: &str) -> PathBuf {
+        let among_assets = self.root.join(kind.folder()).join(format!("{name}.ron"));
+        let here = Path::new(name);
+        if is_path(name) || (here.is_file() && !among_assets.is_file()) {
+            here.to_owned()
         } else {
-            self.root.join(kind).join(format!("{name}.ron"))
+            among_assets
         }
     }
 
     /// The names of the files of a kind, sorted; none if the folder cannot be read.
-    pub fn names(&self, kind: &str) -> Vec<String> {
-        names_in(&self.root.join(kind), "ron")
+    pub fn names(&self, kind: AssetKind) -> Vec<String> {
+        names_in(&self.root.join(kind.folder()), "ron")
+    }
+
+    /// All files of a kind, sorted.
+    ///
+    /// # Errors
+    ///
+    /// If there is a folder for the kind and it cannot be read.
+    pub fn files(&self, kind: AssetKind) -> Result<Vec<PathBuf>, DataError> {
+        let folder = self.root.join(kind.folder());
+        let read = || -> std::io::Result<Vec<PathBuf>> {
+            std::fs::read_dir(&folder)?.map(|entry| Ok(entry?.path())).collect()
+        };
+        let mut paths = match read() {
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            read => read.map_err(|error| DataError::new(&folder, format!("cannot be read: {error}")))?,
+        };
+        paths.retain(|path| path.extension().is_some_and(is_ron) && !path.is_dir());
+        paths.sort();
+        Ok(paths)
     }
 
     fn first_of(
@@ -86,6 +110,15 @@ impl AssetFolder {
     }
 }
 
+/// Whether a name is a path, rather than an asset's name: it ends in `.ron`, in letters of any size, or names a folder.
+pub fn is_path(name: &str) -> bool {
+    name.contains(std::path::is_separator) || Path::new(name).extension().is_some_and(is_ron)
+}
+
+fn is_ron(extension: &OsStr) -> bool {
+    extension.eq_ignore_ascii_case("ron")
+}
+
 /// The names without extension of the files in a folder that have the extension, sorted; none if it cannot be read.
 pub(super) fn names_in(folder: &Path, extension: &str) -> Vec<String> {
     let Ok(entries) = std::fs::read_dir(folder) else {
@@ -109,12 +142,25 @@ mod tests {
     #[test]
     fn a_bare_name_is_a_file_of_its_kind_and_a_path_is_taken_as_it_is() {
         let assets = AssetFolder::new("assets");
-        assert_eq!(
-            assets.file("strategies", "hammerheads_2001"),
-            Path::new("assets/strategies/hammerheads_2001.ron")
-        );
-        assert_eq!(assets.file("strategies", "v1.5"), Path::new("assets/strategies/v1.5.ron"));
-        assert_eq!(assets.file("strategies", "/tmp/mine.ron"), Path::new("/tmp/mine.ron"));
+        let file = |name| assets.file(AssetKind::Strategy, name);
+        assert_eq!(file("hammerheads_2001"), Path::new("assets/strategies/hammerheads_2001.ron"));
+        assert_eq!(file("v1.5"), Path::new("assets/strategies/v1.5.ron"));
+        for path in ["/tmp/mine.ron", "mine.RON", "mine.v2.Ron", "folder/mine", "./mine"] {
+            assert_eq!(file(path), Path::new(path));
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_here_under_a_bare_name_is_taken_unless_an_asset_has_the_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let assets = AssetFolder::new(folder.path());
+        // Cargo runs tests in the package's folder.
+        assert_eq!(assets.file(AssetKind::Strategy, "Cargo.toml"), Path::new("Cargo.toml"));
+        assert_eq!(assets.file(AssetKind::Strategy, "src"), folder.path().join("strategies/src.ron"));
+        let asset = folder.path().join("strategies/Cargo.toml.ron");
+        fs::create_dir(folder.path().join("strategies")).unwrap();
+        fs::write(&asset, "()").unwrap();
+        assert_eq!(assets.file(AssetKind::Strategy, "Cargo.toml"), asset);
     }
 
     #[test]
@@ -122,12 +168,18 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let kind = folder.path().join("pitches");
         fs::create_dir_all(kind.join("folder.ron")).unwrap();
-        for name in ["small.ron", "large.ron", "notes.txt", "ron"] {
+        for name in ["small.ron", "large.ron", "LOUD.RON", "notes.txt", "ron"] {
             fs::write(kind.join(name), "()").unwrap();
         }
+        fs::write(folder.path().join("robots"), "no folder").unwrap();
         let assets = AssetFolder::new(folder.path());
-        assert_eq!(assets.names("pitches"), ["large", "small"]);
-        assert_eq!(assets.names("robots"), Vec::<String>::new());
+        assert_eq!(assets.names(AssetKind::Pitch), ["large", "small"]);
+        assert_eq!(assets.names(AssetKind::Robot), Vec::<String>::new());
+        let files = ["LOUD.RON", "large.ron", "small.ron"].map(|name| kind.join(name));
+        assert_eq!(assets.files(AssetKind::Pitch), Ok(files.to_vec()));
+        assert_eq!(assets.files(AssetKind::Radio), Ok(Vec::new()));
+        let error = assets.files(AssetKind::Robot).unwrap_err();
+        assert!(error.message.starts_with("cannot be read: "), "{error}");
     }
 
     #[test]

@@ -50,6 +50,14 @@ pub(super) fn find(text: &str, path: &[Segment]) -> Option<Found> {
     Some(Found { offset: best.offset, exact: best.followed == path.len() })
 }
 
+/// The bracket that the value of the whole text opens with, if any, and the keys in it, without looking any deeper.
+pub(super) fn outermost(text: &str) -> Option<(Option<char>, Vec<&str>)> {
+    let root = Scanner::new(text, 0).token_start();
+    let value = (root < text.len()).then(|| Value::read(text, root))?;
+    let keys = value.entries.into_iter().filter_map(|entry| entry.key);
+    Some((value.bracket, keys.map(without_raw_prefix).collect()))
+}
+
 /// The line and column, both counted from 1 and in characters, of a byte of the text.
 pub(super) fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
     let before = &text[..offset];

@@ -7,15 +7,20 @@
 mod bounds;
 mod error;
 mod field;
+mod field_names;
 mod folder;
+mod kind;
 mod locate;
 mod scan;
 mod source;
+mod twice;
 mod words;
 
 pub use bounds::{Bound, Fault, count_fault, first_fault, points_fault};
 pub use error::{DataError, in_one_line, no_such};
 pub use field::{Field, Segment};
-pub use folder::AssetFolder;
+pub use field_names::field_names;
+pub use folder::{AssetFolder, is_path};
+pub use kind::AssetKind;
 pub use locate::locate;
-pub use source::{Source, ron_options};
+pub use source::{Source, TopLevel, contents, ron_options};

@@ -3,7 +3,9 @@
 //! Files may leave out `Some(..)`, the name of a newtype and the second pair of brackets of a variant that holds a
 //! struct or a tuple: `Avoid(radius: 0.5)`. The errors of ron are put into the words and the form of [`DataError`].
 
-use std::io::ErrorKind;
+use std::fmt::Display;
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use bevy::math::Vec2;
@@ -15,7 +17,8 @@ use super::bounds::Bound;
 use super::error::DataError;
 use super::field::Field;
 use super::folder::names_in;
-use super::locate::{find, line_and_column, locate};
+use super::locate::{find, line_and_column, locate, outermost};
+use super::twice::{given_twice, name};
 use super::words::in_words;
 
 /// How Touchline reads RON. What is written with other options, those of `ron::to_string` for one, may not read back.
@@ -24,6 +27,17 @@ pub fn ron_options() -> ron::Options {
         .with_default_extension(Extensions::IMPLICIT_SOME)
         .with_default_extension(Extensions::UNWRAP_NEWTYPES)
         .with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES)
+}
+
+/// What a text is at its outside, whether or not it is sound inside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TopLevel<'a> {
+    /// With the names of its fields.
+    Struct(Vec<&'a str>),
+    /// With its keys.
+    Map(Vec<String>),
+    /// A list, a word or a number.
+    Other,
 }
 
 /// A file and its text.
@@ -43,13 +57,17 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// If the file is missing (the error then lists its siblings), cannot be read or is not UTF-8.
+    /// If the file is missing (the error then lists its siblings), cannot be read, is far too long or is not UTF-8.
     pub fn read(path: impl AsRef<Path>) -> Result<Source, DataError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|error| match error.kind() {
+        let bytes = contents(path).map_err(|error| match error.kind() {
             ErrorKind::NotFound => DataError::new(path, missing(path)),
+            ErrorKind::IsADirectory => DataError::new(path, "is a folder, not a file"),
             _ => DataError::new(path, format!("cannot be read: {error}")),
         })?;
+        if bytes.len() > MAX_BYTES {
+            return Err(DataError::new(path, format!("is longer than {} MB", MAX_BYTES >> 20)));
+        }
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Source::new(path, text.strip_prefix('\u{feff}').unwrap_or(&text))),
             Err(error) => {
@@ -64,7 +82,7 @@ impl Source {
     ///
     /// # Errors
     ///
-    /// If the text is not RON, does not fit the type or goes on after the value.
+    /// If the text is not RON, does not fit the type, gives a name twice or goes on after the value.
     pub fn parse<T: DeserializeOwned>(&self) -> Result<T, DataError> {
         let mut ron = ron::Deserializer::from_str_with_options(&self.text, &ron_options())
             .map_err(|error| self.explain(error, Field::root()))?;
@@ -73,7 +91,41 @@ impl Source {
             self.explain(ron.span_error(error.into_inner()), field)
         })?;
         ron.end().map_err(|error| self.explain(ron.span_error(error), Field::root()))?;
-        Ok(value)
+        match given_twice(&self.text) {
+            None => Ok(value),
+            Some(twice) => {
+                let (line, _) = line_and_column(&self.text, twice.first);
+                let message = format!("`{}` is given twice, first in line {line}", twice.name);
+                let place = line_and_column(&self.text, twice.second);
+                Err(DataError::new(&self.path, message).at(place).about(twice.field))
+            }
+        }
+    }
+
+    /// Whether the names in a list are distinct.
+    ///
+    /// # Errors
+    ///
+    /// The first one that is there before.
+    pub fn distinct<T: PartialEq + Display>(&self, list: &Field, names: &[T]) -> Result<(), DataError> {
+        match names.iter().enumerate().find(|(place, name)| names[..*place].contains(name)) {
+            Some((place, name)) => Err(self.error_at(&list.index(place), format!("`{name}` is given twice"))),
+            None => Ok(()),
+        }
+    }
+
+    /// What the text is at its outside.
+    ///
+    /// # Errors
+    ///
+    /// If there is nothing in it.
+    pub fn top_level(&self) -> Result<TopLevel<'_>, DataError> {
+        match outermost(&self.text) {
+            Some((Some('('), fields)) => Ok(TopLevel::Struct(fields)),
+            Some((Some('{'), keys)) => Ok(TopLevel::Map(keys.into_iter().map(name).collect())),
+            Some(_) => Ok(TopLevel::Other),
+            None => Err(DataError::new(&self.path, EMPTY)),
+        }
     }
 
     /// An error about a field of the parsed value, at the place of its value or of the deepest value around it.
@@ -109,7 +161,7 @@ impl Source {
     fn explain(&self, error: SpannedError, field: Field) -> DataError {
         let SpannedError { code, span } = error;
         if code != RonError::UnclosedBlockComment && locate(&self.text, &[]).is_none() {
-            return DataError::new(&self.path, "the file is empty");
+            return DataError::new(&self.path, EMPTY);
         }
         let token = (span.start.line, span.start.col);
         let cursor = (span.end.line, span.end.col);
@@ -141,6 +193,18 @@ impl Source {
     }
 }
 
+const EMPTY: &str = "the file is empty";
+
+/// No file that people write is nearly as long.
+const MAX_BYTES: usize = 4 << 20;
+
+/// What a file holds; no more than a byte too much of one that is too long.
+pub fn contents(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 fn missing(path: &Path) -> String {
     let siblings = match (path.parent(), path.extension().and_then(|it| it.to_str())) {
         (Some(folder), Some(extension)) if folder.as_os_str().is_empty() => {
@@ -157,191 +221,4 @@ fn missing(path: &Path) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::collections::BTreeMap;
-    use std::fs;
-
-    use proptest::prelude::*;
-    use serde::Deserialize;
-
-    use super::*;
-
-    #[derive(Debug, Deserialize, PartialEq)]
-    struct Metres(f32);
-
-    #[derive(Debug, Deserialize, PartialEq)]
-    #[serde(deny_unknown_fields)]
-    struct Ring {
-        radius: Metres,
-        gain: Option<f32>,
-        count: Option<u32>,
-    }
-
-    #[derive(Debug, Deserialize, PartialEq)]
-    enum Schema {
-        Avoid(Ring),
-        Go(f32, f32),
-        At((f32, f32)),
-        Turn { by: f32 },
-        Stop,
-        All(Vec<Schema>),
-    }
-
-    #[derive(Debug, Deserialize, PartialEq)]
-    #[serde(deny_unknown_fields)]
-    struct Plan {
-        name: String,
-        #[serde(default)]
-        schemas: BTreeMap<String, Schema>,
-        #[serde(default)]
-        spots: Vec<(f32, f32)>,
-        #[serde(default)]
-        numbers: BTreeMap<u32, Ring>,
-    }
-
-    fn parse(text: &str) -> Result<Plan, DataError> {
-        Source::new("x.ron", text).parse()
-    }
-
-    /// What is wrong with a plan that holds these fields on its second line.
-    fn trouble(fields: &str) -> String {
-        parse(&format!("(name: \"é\",\n{fields})")).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn some_newtypes_and_the_inner_brackets_of_variants_are_left_out() {
-        let text = r#"Plan(name: "a", schemas: {
-            "a": Avoid(radius: 0.5, gain: 2), "b": At(1, 2), "c": All([Stop, Go(1.0, 2.0), Turn(by: 3)]),
-        })"#;
-        let ring = Ring { radius: Metres(0.5), gain: Some(2.0), count: None };
-        let all = Schema::All(vec![Schema::Stop, Schema::Go(1.0, 2.0), Schema::Turn { by: 3.0 }]);
-        let schemas = [("a", Schema::Avoid(ring)), ("b", Schema::At((1.0, 2.0))), ("c", all)];
-        assert!(parse(text).unwrap().schemas.into_values().eq(schemas.map(|(_, schema)| schema)));
-    }
-
-    #[test]
-    fn an_unknown_field_is_reported_where_it_stands() {
-        let error = trouble("/* ( */ nme : 3");
-        assert_eq!(error, "x.ron:2:9: nme: there is no field `nme`; known: name, schemas, spots, numbers");
-    }
-
-    #[test]
-    fn a_missing_field_is_reported_at_the_struct_that_lacks_it() {
-        assert_eq!(parse(" ()").unwrap_err().to_string(), "x.ron:1:2: the field `name` is missing");
-        let error = trouble(r#"schemas: {"a b": Avoid(gain: 1)}"#);
-        assert_eq!(error, r#"x.ron:2:18: schemas["a b"].Avoid: the field `radius` is missing"#);
-        assert_eq!(trouble("numbers: {7: ()}"), "x.ron:2:14: numbers.7: the field `radius` is missing");
-    }
-
-    #[test]
-    fn a_field_given_twice_is_reported_at_the_second() {
-        assert_eq!(trouble(r#"name: "b""#), "x.ron:2:1: name: the field `name` is given twice");
-    }
-
-    #[test]
-    fn a_wrong_type_is_reported_at_the_value() {
-        for (fields, expected) in [
-            ("spots: [(1, 2), (3, nine)]", "2:21: spots[1][1]: expected a number"),
-            (
-                "spots: [(1, 2), (3)]",
-                "2:17: spots[1]: expected a tuple of size 2 but found one element instead",
-            ),
-            (
-                "schemas: {\"a\": All([Stop, Turn(by: true)])}",
-                "2:36: schemas.a.All[1].Turn.by: expected a number",
-            ),
-            ("numbers: {7: (radius: 1, count: -1)}", "2:33: numbers.7.count: integer is out of bounds"),
-            ("numbers: {7: (radius: 1, count: 1.5)}", "2:34: numbers.7: expected a whole number"),
-            ("schemas: {\"a\": 3}", "2:16: schemas.a: expected a name"),
-            ("schemas: {a: Stop}", "2:11: schemas: expected a string in quotes"),
-        ] {
-            assert_eq!(trouble(fields), format!("x.ron:{expected}"));
-        }
-    }
-
-    #[test]
-    fn an_unknown_variant_is_reported_with_those_that_exist() {
-        let error = trouble(r#"schemas: {"a": Avid (radius: 1)}"#);
-        let message = "there is no variant `Avid`; known: Avoid, Go, At, Turn, Stop, All";
-        assert_eq!(error, format!("x.ron:2:16: schemas.a: {message}"));
-    }
-
-    #[test]
-    fn text_that_is_not_ron_is_reported_where_it_stops_making_sense() {
-        for (text, expected) in [
-            ("(name: \"é\"\n  spots: [])", "x.ron:2:3: expected a comma or a closing bracket before this"),
-            ("(name: \"é\"", "x.ron:1:11: expected a comma or a closing bracket here"),
-            ("(name: \"é", "x.ron:1:8: name: this string is never closed"),
-            ("(name: \"é\",) x", "x.ron:1:14: there is text after the end of the value"),
-            ("(name = 3)", "x.ron:1:7: expected a colon"),
-            ("", "x.ron: the file is empty"),
-            ("// only a comment\n", "x.ron: the file is empty"),
-            ("/* open", "x.ron:1:8: unclosed block comment"),
-        ] {
-            assert_eq!(parse(text).unwrap_err().to_string(), expected);
-        }
-    }
-
-    #[test]
-    fn superfluous_brackets_in_a_variant_are_explained() {
-        let error = trouble(r#"schemas: {"a": Avoid((radius: 1))}"#);
-        let message = "expected a name, as one pair of brackets is enough here";
-        assert_eq!(error, format!("x.ron:2:22: schemas.a.Avoid: {message}"));
-    }
-
-    #[test]
-    fn errors_found_after_parsing_point_at_the_value() {
-        let source = Source::new("x.ron", "(\n  // ]\n  spots: [(1, 2), (3, NaN)],\n)");
-        let field = Field::root().key("spots").index(1).index(1);
-        let error = source.within(&field, f32::NAN, Bound::PLACE).unwrap_err();
-        assert_eq!(error.to_string(), "x.ron:3:23: spots[1][1]: must be a number, not NaN");
-        let spot = Field::root().key("spots").index(1);
-        let error = source.vector_within(&spot, Vec2::new(3.0, f32::NAN), Bound::PLACE).unwrap_err();
-        assert_eq!(error.field, field);
-        assert_eq!(source.within(&field, 1.5, Bound::PLACE), Ok(()));
-        let lost = source.error_at(&Field::root().key("walls"), "there are no walls");
-        assert_eq!(lost.to_string(), "x.ron:1:1: walls: there are no walls");
-    }
-
-    #[test]
-    fn files_are_read_without_byte_order_mark() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.ron");
-        fs::write(&path, "\u{feff}(name: \"a\")").unwrap();
-        assert_eq!(Source::read(&path).unwrap(), Source::new(&path, "(name: \"a\")"));
-    }
-
-    #[test]
-    fn files_that_cannot_be_read_are_errors_that_say_why() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("b.ron");
-        let message = |path: &Path| Source::read(path).unwrap_err().message;
-        assert_eq!(message(&path), "no such file");
-        assert_eq!(message(&folder.path().join("none/b.ron")), "no such file");
-        for name in ["c.ron", "a.ron", "d.txt"] {
-            fs::write(folder.path().join(name), b"(\n \xc3\xa9\xff)").unwrap();
-        }
-        assert_eq!(message(&path), "no such file; there are: a, c");
-        assert!(message(folder.path()).starts_with("cannot be read: "));
-        let error = Source::read(folder.path().join("a.ron")).unwrap_err();
-        assert!(error.to_string().ends_with("a.ron:2:3: not UTF-8 text from here"));
-        assert_eq!(message(Path::new("")), "no such file");
-    }
-
-    #[test]
-    fn values_nested_too_deeply_are_an_error() {
-        let deep = format!("(name: \"\", schemas: {{\"\": {}", "All([".repeat(10_000));
-        assert!(parse(&deep).unwrap_err().message.contains("recursion limit"));
-    }
-
-    proptest! {
-        #[test]
-        fn parsing_any_text_is_a_value_or_an_error_of_one_line(
-            text in "\\PC*|(\\(name: \"a\",\n)?([\\[\\](){},:\"'\\\\#!r/* \nab0-2é.-]|schemas: |All|Go|spots|numbers){0,40}",
-        ) {
-            if let Err(error) = parse(&text) {
-                prop_assert_eq!(error.to_string().lines().count(), 1);
-            }
-        }
-    }
-}
+mod tests;

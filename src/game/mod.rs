@@ -1,14 +1,17 @@
 //! A match: read as a [`MatchPlan`], started in a world, played tick by tick.
 
 mod carry;
+mod files;
 mod line_up;
 mod plan;
 mod situation;
 mod spawn;
+mod team;
 
 use bevy::prelude::*;
-pub(crate) use plan::checked;
-pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan, TeamFile, TeamPlan};
+pub(crate) use files::{checked, file_named, read_addresses};
+pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan};
+pub use team::{TeamFile, TeamPlan};
 
 pub use situation::{Placed, Situation};
 

@@ -2,23 +2,19 @@
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::line_up::LineUp;
+use super::files::{checked, file_named, read_addresses};
 use super::situation::Situation;
+use super::team::{TeamFile, TeamPlan};
 use crate::ball::BallKind;
-use crate::data::{AssetFolder, DataError, Fault, Field, Source, no_such};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, no_such};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
 use crate::radio::{FaultRule, Radio};
 use crate::referee::RuleBook;
-use crate::robot::RobotKind;
 use crate::script::Request;
-use crate::sense::Sensing;
-use crate::strategy::Strategy;
 use crate::tcm::{Directory, HOST, TcmSettings};
 use crate::wire::{WirePlan, team_numbers_fault};
 
@@ -40,18 +36,6 @@ pub struct MatchFile {
 
 fn default_radio() -> String {
     DEFAULT_RADIO.into()
-}
-
-/// One side of a match: names of files.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TeamFile {
-    pub strategy: String,
-    pub robot: String,
-    pub sensing: String,
-    /// The league's number of the team, 0 to 254. Without numbers the first referee box that is heard decides.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub team_number: Option<u8>,
 }
 
 /// What a person changes of a match file.
@@ -98,16 +82,6 @@ pub struct MatchPlan {
     pub script: Vec<(u64, Request)>,
 }
 
-/// One side of a match.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TeamPlan {
-    /// The strategy's name among the assets, or its path.
-    pub strategy_file: String,
-    pub strategy: Arc<Strategy>,
-    pub kind: Arc<RobotKind>,
-    pub sensing: Arc<Sensing>,
-}
-
 /// The match that is played unless another is named.
 pub const DEFAULT_MATCH: &str = "friendly";
 /// The port of the first robot, unless a match says where its robots are.
@@ -124,7 +98,15 @@ impl MatchPlan {
     /// The first file that is missing or wrong, with the place of the fault.
     pub fn read(assets: &AssetFolder, choice: &Choice) -> Result<MatchPlan, DataError> {
         let name = choice.file.as_deref().unwrap_or(DEFAULT_MATCH);
-        let source = Source::read(assets.file("matches", name))?;
+        MatchPlan::read_file(assets, &assets.file(AssetKind::Match, name), choice)
+    }
+
+    /// Reads a match from its file, whatever match is chosen, and everything that it needs.
+    ///
+    /// # Errors
+    /// As [`MatchPlan::read`].
+    pub fn read_file(assets: &AssetFolder, path: &Path, choice: &Choice) -> Result<MatchPlan, DataError> {
+        let source = Source::read(path)?;
         let mut file: MatchFile = source.parse()?;
         let ball_fault = file.ball.fault().map(|(field, message)| (format!("ball.{field}"), message));
         let rules_fault = file.rules.fault().map(|(field, message)| (format!("rules.{field}"), message));
@@ -141,9 +123,15 @@ impl MatchPlan {
                 return Err(DataError::new("--minutes", message));
             }
         }
-        let pitch = checked(&assets.file("pitches", &file.pitch), Pitch::fault)?;
+        let pitch = file_named(assets, &source, AssetKind::Pitch, ("pitch", &file.pitch))?;
+        let pitch = checked(&pitch, Pitch::fault)?;
+        if choice.radio.is_none() {
+            file_named(assets, &source, AssetKind::Radio, ("radio", &file.radio))?;
+        }
+        file.home.check(assets, &source, "home", choice.home.is_none())?;
+        file.away.check(assets, &source, "away", choice.away.is_none())?;
         let radio = choice.radio.as_ref().unwrap_or(&file.radio);
-        let radio = checked(&assets.file("radios", radio), Radio::fault)?;
+        let radio = checked(&assets.file(AssetKind::Radio, radio), Radio::fault)?;
         file.home.strategy = choice.home.clone().unwrap_or(file.home.strategy);
         file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
         let teams = [
@@ -222,33 +210,6 @@ impl MatchPlan {
     }
 }
 
-impl TeamPlan {
-    pub(crate) fn read(
-        assets: &AssetFolder,
-        file: &TeamFile,
-        pitch: &Pitch,
-        ball: &BallKind,
-    ) -> Result<TeamPlan, DataError> {
-        let path = assets.file("strategies", &file.strategy);
-        let source = Source::read(&path)?;
-        let strategy = Strategy::parse_for(&source, pitch)?;
-        if !strategy.robot_kinds.contains(&file.robot) {
-            let message = format!("cannot be played by a `{}`: add it here if it can", file.robot);
-            return Err(source.error_at(&Field::root().key("robot_kinds"), message));
-        }
-        let kind = checked(&assets.file("robots", &file.robot), RobotKind::fault)?;
-        if let Some((field, message)) = LineUp::new(&kind, ball, pitch).fault(&strategy.kick_off) {
-            return Err(source.error_at(&field, message));
-        }
-        Ok(TeamPlan {
-            strategy_file: file.strategy.clone(),
-            strategy: Arc::new(strategy),
-            kind: Arc::new(kind),
-            sensing: Arc::new(checked(&assets.file("sensing", &file.sensing), Sensing::fault)?),
-        })
-    }
-}
-
 /// The league's numbers of home and away, if the match file gives them.
 fn team_numbers(source: &Source, file: &MatchFile) -> Result<Option<[u8; 2]>, DataError> {
     let fault =
@@ -263,28 +224,5 @@ fn team_numbers(source: &Source, file: &MatchFile) -> Result<Option<[u8; 2]>, Da
             let (with, without) = if home.is_some() { ("home", "away") } else { ("away", "home") };
             Err(fault(with, format!("give {without} a team_number, too")))
         }
-    }
-}
-
-/// Reads who is where.
-fn read_addresses(path: &Path) -> Result<Directory, DataError> {
-    let source = Source::read(path)?;
-    let directory: Directory = source.parse()?;
-    match directory.fault() {
-        Some((entity, message)) => Err(source.error_at(&Field::root().key(&entity), message)),
-        None => Ok(directory),
-    }
-}
-
-/// Reads a file whose type checks its own numbers.
-pub(crate) fn checked<T: DeserializeOwned>(
-    path: &Path,
-    fault: impl Fn(&T) -> Option<Fault>,
-) -> Result<T, DataError> {
-    let source = Source::read(path)?;
-    let value: T = source.parse()?;
-    match fault(&value) {
-        Some((field, message)) => Err(source.error_at(&Field::root().dotted(&field), message)),
-        None => Ok(value),
     }
 }

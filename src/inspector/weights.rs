@@ -127,15 +127,15 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::data::{AssetFolder, Source};
+    use crate::data::{AssetFolder, AssetKind, Source};
 
     const PLACE: Place = Place { team: Team::Away, assemblage: 0, term: 0 };
 
     fn strategies() -> Strategies {
         let folder = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
-        let read = Source::read(folder.file("strategies", "ball_chasers"))
-            .and_then(|source| Strategy::parse(&source));
-        let strategy = Arc::new(read.expect("the strategy is sound"));
+        let path = folder.file(AssetKind::Strategy, "ball_chasers");
+        let read = Strategy::read(&folder, &path, None);
+        let strategy = Arc::new(read.strategy.expect("the strategy is sound"));
         Strategies([strategy.clone(), strategy])
     }
 

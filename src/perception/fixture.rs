@@ -4,7 +4,7 @@ use bevy::prelude::*;
 
 use super::Perception;
 use crate::ball::BallKind;
-use crate::data::Source;
+use crate::data::{AssetFolder, Source};
 use crate::geometry::{Pose, Zone};
 use crate::ids::Team;
 use crate::pitch::Pitch;
@@ -142,5 +142,6 @@ pub fn strategy(player: &str, pieces: &str) -> Strategy {
         "(name: \"test\", robot_kinds: [\"cye\"], players: [\"{player}\"],
           kick_off: (ours: [(-1.0, 0.0)], theirs: [(-1.0, 0.0)]), {pieces})"
     );
-    Strategy::parse(&Source::new("test.ron", text)).expect("the strategy of the test is sound")
+    let assets = AssetFolder::new("assets");
+    Strategy::parse(&assets, &Source::new("test.ron", text), None).expect("the strategy of the test is sound")
 }

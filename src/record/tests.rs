@@ -1,9 +1,9 @@
 //! What is recorded of a world that is arranged by hand.
 
 use super::*;
+use crate::behaviour::Searched;
 use crate::ids::Team::{Away, Home};
 use crate::perception::fixture::BALL;
-use crate::behaviour::Searched;
 use crate::referee::RuleBook;
 use crate::strategy::Strategies;
 
@@ -35,8 +35,14 @@ fn app() -> App {
 /// A robot on the x axis.
 fn robot(app: &mut App, team: Team, number: u8, x: f32) -> Entity {
     let id = RobotId::new(team, number);
-    let activity =
-        Activity { acting_as: 0, state: 0, since: 0, homebase: Vec2::ZERO, searched: Searched::new(), history: Default::default() };
+    let activity = Activity {
+        acting_as: 0,
+        state: 0,
+        since: 0,
+        homebase: Vec2::ZERO,
+        searched: Searched::new(),
+        history: Default::default(),
+    };
     let trailer = Trailer { of: id, middle: Vec2::ZERO, radius: 0.3 };
     app.world_mut().spawn((trailer, Pose::new(x, 1.0, 0.0)));
     app.world_mut().spawn((id, Pose::new(x, 0.0, 0.0), Twist::default(), Role(0), activity)).id()

@@ -10,8 +10,8 @@ use super::event::{Dependency, Event};
 use super::file::{Referee, ScenarioFile, SideFile};
 use crate::ball::BallKind;
 use crate::clock::{Clock, TICK_HZ};
-use crate::data::{AssetFolder, DataError, Field, Source};
-use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
+use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked, file_named};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -39,24 +39,28 @@ impl ScenarioPlan {
     pub fn read(assets: &AssetFolder, path: &Path) -> Result<ScenarioPlan, DataError> {
         let source = Source::read(path)?;
         let file: ScenarioFile = source.parse()?;
-        let usual = MatchPlan::read(assets, &Choice { file: Some(file.game.clone()), ..Choice::default() })?;
+        let game = file_named(assets, &source, AssetKind::Match, ("game", &file.game))?;
+        let usual = MatchPlan::read_file(assets, &game, &Choice::default())?;
         let pitch = match &file.pitch {
-            Some(name) => checked(&assets.file("pitches", name), Pitch::fault)?,
+            Some(name) => {
+                checked(&file_named(assets, &source, AssetKind::Pitch, ("pitch", name))?, Pitch::fault)?
+            }
             None => usual.pitch.clone(),
         };
-        let home = team(assets, &file.home, &pitch, &usual.ball)?;
-        let away = team(assets, file.away.as_ref().unwrap_or(&file.home), &pitch, &usual.ball)?;
+        let home = team(assets, &source, ("home", &file.home), (&pitch, &usual.ball))?;
+        let away = file.away.as_ref().map_or(("home", &file.home), |away| ("away", away));
+        let away = team(assets, &source, away, (&pitch, &usual.ball))?;
         let known = Known {
             pitch: &pitch,
             ball: &usual.ball,
             teams: [known(&home), if file.away.is_some() { known(&away) } else { KnownTeam::default() }],
-            radios: assets.names("radios"),
+            radios: assets.names(AssetKind::Radio),
         };
         let scenario = check(&file, &source, &known)?;
         let mut match_plan = MatchPlan {
             name: scenario.name.clone(),
             pitch,
-            radio: checked(&assets.file("radios", &scenario.radio), Radio::fault)?,
+            radio: checked(&assets.file(AssetKind::Radio, &scenario.radio), Radio::fault)?,
             teams: [home, away],
             seed: scenario.seeds.first().copied().unwrap_or(1),
             situation: Some(situation(&scenario)),
@@ -65,7 +69,9 @@ impl ScenarioPlan {
         };
         for (team, side) in Team::BOTH.into_iter().zip(&scenario.sides) {
             if let Some(side) = side {
-                cast(&mut match_plan.teams[team.index()], side);
+                let at = Field::root().key(team.to_string());
+                let cast = match_plan.teams[team.index()].cast(cast(side));
+                cast.map_err(|message| source.error_at(&at, message))?;
             }
         }
         match_plan.script = script(assets, &scenario, &match_plan)?;
@@ -125,13 +131,14 @@ fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
 
 fn team(
     assets: &AssetFolder,
-    file: &SideFile,
-    pitch: &Pitch,
-    ball: &BallKind,
+    source: &Source,
+    (side, file): (&str, &SideFile),
+    (pitch, ball): (&Pitch, &BallKind),
 ) -> Result<TeamPlan, DataError> {
     let SideFile { strategy, robot, sensing, .. } = file;
     let (strategy, robot, sensing) = (strategy.clone(), robot.clone(), sensing.clone());
     let names = TeamFile { strategy, robot, sensing, team_number: None };
+    names.check(assets, source, side, true)?;
     TeamPlan::read(assets, &names, pitch, ball)
 }
 
@@ -146,16 +153,9 @@ fn known(team: &TeamPlan) -> KnownTeam<'_> {
     }
 }
 
-/// Gives the players of a side the roles that the scenario wants, from kick-off on.
-fn cast(team: &mut TeamPlan, side: &Side) {
-    let strategy = Arc::make_mut(&mut team.strategy);
-    for player in &side.players {
-        let wanted = player.role.as_deref().and_then(|name| role(strategy, name));
-        let number = usize::from(player.id.number);
-        if let (Some(wanted), Some(place)) = (wanted, strategy.players.get_mut(number)) {
-            *place = usize::from(wanted);
-        }
-    }
+/// The roles that a scenario gives to the players of a side, by number.
+fn cast(side: &Side) -> Vec<(u8, String)> {
+    side.players.iter().filter_map(|player| Some((player.id.number, player.role.clone()?))).collect()
 }
 
 fn role(strategy: &Strategy, name: &str) -> Option<RoleIndex> {
@@ -205,7 +205,7 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
         Event::Heal => Request::Air(Weather::Heal),
         Event::Jam(jammed) => Request::Air(Weather::Jam(*jammed)),
         Event::Radio(name) => {
-            Request::Air(Weather::Change(checked(&assets.file("radios", name), Radio::fault)?))
+            Request::Air(Weather::Change(checked(&assets.file(AssetKind::Radio, name), Radio::fault)?))
         }
         Event::Ball { at, velocity } => Request::Body(Shove::Ball { at: *at, velocity: *velocity }),
         Event::Push { robot, by } => Request::Body(Shove::Push { robot: *robot, by: *by }),

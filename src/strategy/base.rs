@@ -1,27 +1,80 @@
 //! A strategy that is another one with changes: the file names its base and holds what is different.
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use super::file::{KickOff, StrategyFile};
 use super::resolve::resolve;
-use crate::data::{DataError, Field, Source};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path};
 
-/// Fills what a file leaves out from the strategy that it is based on, a file beside it.
-pub(super) fn complete(file: StrategyFile, source: &Source) -> Result<StrategyFile, DataError> {
-    let Some(name) = &file.based_on else { return Ok(file) };
-    let at = Field::root().key("based_on");
-    let path = source.path.with_file_name(format!("{name}.ron"));
-    if !path.is_file() {
-        return Err(source.error_at(&at, format!("there is no {}", path.display())));
+/// So many strategies at most may each be based on the next.
+const MAX_BASES: usize = 8;
+
+/// A strategy file and those that it is based on, the nearest first.
+pub(super) struct Lineage<'a> {
+    assets: &'a AssetFolder,
+    row: Vec<PathBuf>,
+    /// Every file that was looked for, whether or not it is there.
+    pub(super) files: Vec<PathBuf>,
+}
+
+impl Lineage<'_> {
+    pub(super) fn of<'a>(path: &Path, assets: &'a AssetFolder) -> Lineage<'a> {
+        Lineage { assets, row: vec![path.to_owned()], files: vec![path.to_owned()] }
     }
-    let base_source = Source::read(&path)?;
-    let base: StrategyFile = base_source.parse()?;
-    if base.based_on.is_some() {
-        return Err(source.error_at(&at, format!("{name} is based on another strategy itself")));
+
+    /// Fills what a file leaves out from the strategy that it is based on.
+    pub(super) fn complete(
+        &mut self,
+        file: StrategyFile,
+        source: &Source,
+    ) -> Result<StrategyFile, DataError> {
+        let Some(name) = &file.based_on else { return Ok(file) };
+        let fault = |message| Err(source.error_at(&Field::root().key("based_on"), message));
+        let Some(path) = self.find(name, &source.path) else {
+            let known = self.assets.names(AssetKind::Strategy).join(", ");
+            return fault(format!(
+                "there is no strategy `{name}` beside this file or among the assets: {known}"
+            ));
+        };
+        if self.row.iter().any(|other| is_same_file(other, &path)) {
+            return fault(format!("`{name}` is based on itself, by way of this file"));
+        }
+        if self.row.len() > MAX_BASES {
+            return fault(format!("more than {MAX_BASES} strategies are based on one another"));
+        }
+        self.row.push(path.clone());
+        let base_source = Source::read(&path)?;
+        let base = self.complete(base_source.parse()?, &base_source)?;
+        // Its own faults are told with their places in it.
+        resolve(&base, &base_source, None)?;
+        Ok(file.over(base))
     }
-    // Its own faults are told with their places in it.
-    resolve(&base, &base_source, None)?;
-    Ok(file.over(base))
+
+    /// The file of a base: that of a path, seen from the folder of the file that names it; else the file of that name in
+    /// the same folder, unless it is the naming file itself; else the one among the assets.
+    fn find(&mut self, name: &str, from: &Path) -> Option<PathBuf> {
+        let is_whole = Path::new(name).extension().is_some_and(|it| it.eq_ignore_ascii_case("ron"));
+        let beside = from.with_file_name(if is_whole { name.to_owned() } else { format!("{name}.ron") });
+        let mut places = vec![beside];
+        if !is_path(name) {
+            places.retain(|beside| !is_same_file(beside, from));
+            places.push(self.assets.file(AssetKind::Strategy, name));
+        }
+        for place in places {
+            if !self.files.contains(&place) {
+                self.files.push(place.clone());
+            }
+            if place.is_file() {
+                return Some(place);
+            }
+        }
+        None
+    }
+}
+
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    one == other || one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
 }
 
 impl StrategyFile {

@@ -17,8 +17,9 @@ pub struct StrategyFile {
     pub name: String,
     #[serde(default)]
     pub description: String,
-    /// The strategy that fills whatever this file leaves out: the name of a file beside it. Of pieces with the same name,
-    /// this file's own count.
+    /// The strategy that fills whatever this file leaves out: the name of a file in the same folder or else of one among the
+    /// assets, or a path from this file's folder. Of pieces with the same name, this file's own count. The base may have a
+    /// base in turn.
     #[serde(default)]
     pub based_on: Option<String>,
     /// Length and width in metres of the pitch that its positions are meant for. On another pitch they are stretched.

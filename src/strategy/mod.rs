@@ -11,16 +11,17 @@ mod resolve;
 mod role_ref;
 pub mod teamwork;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::data::{DataError, Source};
+use crate::data::{AssetFolder, DataError, Field, Source};
 use crate::geometry::Zone;
 use crate::ids::Team;
 use crate::pitch::Pitch;
+use base::Lineage;
 pub use file::{KickOff, StrategyFile};
 use language::{Feature, Point, Schema};
 pub use role_ref::RoleRef;
@@ -156,30 +157,58 @@ pub struct Term {
     pub schema: Schema,
 }
 
+/// What came of reading a strategy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrategyReading {
+    /// A strategy is loaded whole or not at all: then the error says what is wrong, with file, line, column and field.
+    pub strategy: Result<Strategy, DataError>,
+    /// Its own file first, then where those that it is based on are or were looked for: if one of these changes, comes or
+    /// goes, so may the strategy.
+    pub files: Vec<PathBuf>,
+}
+
+impl StrategyReading {
+    /// The same, unless a sound strategy does not do for its use: then an error at the field that says why.
+    pub(crate) fn require(
+        mut self,
+        check: impl FnOnce(&mut Strategy) -> Result<(), (Field, String)>,
+    ) -> StrategyReading {
+        self.strategy = self.strategy.and_then(|mut strategy| match check(&mut strategy) {
+            Ok(()) => Ok(strategy),
+            Err((field, message)) => Err(Source::read(&self.files[0])?.error_at(&field, message)),
+        });
+        self
+    }
+}
+
 impl Strategy {
-    /// Reads and checks a strategy file, with positions as they are written.
-    ///
-    /// # Errors
-    /// Says what is wrong with the file's path, line, column and field; a strategy is loaded whole or not at all.
-    pub fn read(path: &Path) -> Result<Strategy, DataError> {
-        Strategy::parse(&Source::read(path)?)
+    /// Reads and checks a strategy file and those that it is based on. Its positions are stretched to a pitch, and are as
+    /// they are written without one.
+    pub fn read(assets: &AssetFolder, path: &Path, pitch: Option<&Pitch>) -> StrategyReading {
+        let mut lineage = Lineage::of(path, assets);
+        let strategy = Source::read(path).and_then(|source| Strategy::resolved(&source, &mut lineage, pitch));
+        StrategyReading { strategy, files: lineage.files }
     }
 
-    /// Checks the text of a strategy file, with positions as they are written.
+    /// Checks the text of a strategy file that is already at hand, as [`Strategy::read`] does.
     ///
     /// # Errors
-    /// As [`Strategy::read`].
-    pub fn parse(source: &Source) -> Result<Strategy, DataError> {
-        resolve::resolve(&base::complete(source.parse()?, source)?, source, None)
+    /// Says what is wrong with the file's path, line, column and field.
+    pub fn parse(
+        assets: &AssetFolder,
+        source: &Source,
+        pitch: Option<&Pitch>,
+    ) -> Result<Strategy, DataError> {
+        Strategy::resolved(source, &mut Lineage::of(&source.path, assets), pitch)
     }
 
-    /// Checks the text of a strategy file, and stretches its positions to a pitch.
-    ///
-    /// # Errors
-    /// As [`Strategy::read`].
-    pub fn parse_for(source: &Source, pitch: &Pitch) -> Result<Strategy, DataError> {
-        let size = Some(2.0 * pitch.half_size());
-        resolve::resolve(&base::complete(source.parse()?, source)?, source, size)
+    fn resolved(
+        source: &Source,
+        lineage: &mut Lineage,
+        pitch: Option<&Pitch>,
+    ) -> Result<Strategy, DataError> {
+        let file = lineage.complete(source.parse()?, source)?;
+        resolve::resolve(&file, source, pitch.map(|pitch| 2.0 * pitch.half_size()))
     }
 
     /// Whether robots that play `before` can play on with this strategy.

@@ -2,11 +2,13 @@
 
 use super::*;
 use crate::clock::Clock;
+use crate::data::{AssetFolder, AssetKind};
 use crate::ids::{RobotId, Team};
 use crate::messages::Values;
 use crate::perception::fixture::idle;
 use crate::protocol::role_swap::{Assignment, Phase};
 use crate::rng::Seed;
+use crate::strategy::Strategy;
 
 fn picture() -> TeamPicture {
     TeamPicture::of(Assignment::new([0, 1, 2, 3]))
@@ -41,8 +43,9 @@ fn a_strategy_without_role_swaps_has_no_swap_machines() {
 
 #[test]
 fn the_shipped_team_with_swaps_starts_in_the_roles_of_kick_off_and_idle() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/strategies/hammerheads_swap.ron");
-    let strategy = crate::strategy::Strategy::read(path.as_ref()).expect("the shipped strategy is sound");
+    let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+    let path = assets.file(AssetKind::Strategy, "hammerheads_swap");
+    let strategy = Strategy::read(&assets, &path, None).strategy.expect("the shipped strategy is sound");
     for number in 0..4 {
         let swapping = Swapping::new(&strategy, RobotId::new(Team::Home, number), Seed(1));
         let machine = swapping.expect("it swaps roles").machine;

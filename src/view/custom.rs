@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use bevy_egui::egui;
 
 use super::bottom_bar::robot_text;
-use crate::data::AssetFolder;
+use crate::data::{AssetFolder, AssetKind};
 use crate::game::Choice;
 use crate::ids::{RobotId, Team};
 use crate::strategy::Strategy;
@@ -45,10 +45,11 @@ impl Form {
     /// Reads what there is to choose from.
     pub fn refresh(&mut self, assets: &AssetFolder) {
         let chosen = self.teams.map(|team| self.offers.get(team).map(|offer| offer.file.clone()));
-        self.offers = (assets.names("strategies").into_iter())
+        self.offers = (assets.names(AssetKind::Strategy).into_iter())
             .map(|file| {
-                let read = Strategy::read(&assets.file("strategies", &file));
-                let found = read.map(|strategy| (strategy.name, strategy.players.len()));
+                let path = assets.file(AssetKind::Strategy, &file);
+                let read = Strategy::read(assets, &path, None);
+                let found = read.strategy.map(|strategy| (strategy.name, strategy.players.len()));
                 Offer { file, found: found.map_err(|error| error.to_string()) }
             })
             .collect();

@@ -20,7 +20,7 @@ use super::opened::Inspector;
 use super::session::{Folder, Session, Wanted, Wish};
 use super::state::{Overlay, Overlays, Pace, Piloted, Selected};
 use super::window_size::{NEEDED, pixels_a_point};
-use crate::data::AssetFolder;
+use crate::data::{AssetFolder, AssetKind};
 use crate::game::Choice;
 use crate::ids::{RobotId, Team};
 use crate::referee::{MatchState, Removal, RemovalReason};
@@ -84,7 +84,7 @@ impl Program {
     }
 
     fn scenario(name: &str) -> Program {
-        let path: PathBuf = assets().file("scenarios", name);
+        let path: PathBuf = assets().file(AssetKind::Scenario, name);
         Program::with(Wanted::Scenario { path, seed: None })
     }
 

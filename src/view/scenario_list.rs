@@ -9,7 +9,7 @@ use egui::{RichText, vec2};
 use super::colours::{self, egui as paint};
 use super::session::Wanted;
 use super::style::SMALL;
-use crate::data::{AssetFolder, Source};
+use crate::data::{AssetFolder, AssetKind, Source};
 use crate::scenario::ScenarioFile;
 
 /// The list, and what is chosen of it.
@@ -31,7 +31,8 @@ impl ScenarioList {
     /// Reads what there is to choose from.
     pub fn refresh(&mut self, assets: &AssetFolder) {
         let chosen = self.chosen.and_then(|index| self.entries.get(index)).map(|entry| entry.path.clone());
-        let paths = assets.names("scenarios").into_iter().map(|name| assets.file("scenarios", &name));
+        let paths =
+            assets.names(AssetKind::Scenario).into_iter().map(|name| assets.file(AssetKind::Scenario, &name));
         self.entries = paths.map(Entry::read).collect();
         let place = |entry: &Entry| Some(&entry.path) == chosen.as_ref();
         self.chosen = self.entries.iter().position(place).or(Some(0).filter(|_| !self.entries.is_empty()));

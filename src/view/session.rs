@@ -8,7 +8,7 @@ use super::calls::Trouble;
 use super::expectations::Expectations;
 use super::state::{Pace, Piloted, Screen, Selected};
 use crate::clock::Clock;
-use crate::data::{AssetFolder, DataError};
+use crate::data::{AssetFolder, AssetKind, DataError};
 use crate::game::{Choice, MatchPlan, start_match};
 use crate::ids::Team;
 use crate::rng::DEFAULT_SEED;
@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn a_scenario_is_played_with_its_first_seed_or_with_the_one_asked_for() {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
-        let path = assets.file("scenarios", "swap_figure_8");
+        let path = assets.file(AssetKind::Scenario, "swap_figure_8");
         let seed_of = |seed| {
             let (plan, scenario) = Wanted::Scenario { path: path.clone(), seed }.plans(&assets).unwrap();
             assert!(scenario.is_some() && plan.situation.is_some());

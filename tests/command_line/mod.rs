@@ -183,6 +183,8 @@ fn a_fault_in_the_addresses_is_named_with_its_line_and_field() {
     for (bad, words) in [
         (r#""home 1": "127.0.0.1:0""#, [":3:", "home 1", "port other than 0"]),
         (r#""home 1": "127.0.0.1:7400""#, [":3:", "home 1", "that of home 0"]),
+        (r#""Home:1": "127.0.0.1:0""#, [":3:", "Home:1", "port other than 0"]),
+        (r#""home-0": "127.0.0.1:7401""#, [":3:", "home-0", "is there twice"]),
         (r#""home": "127.0.0.1:7401""#, [":3:", "home", "groups have no address"]),
         (r#""home 1": "nowhere""#, [":3:", "home 1", "socket address"]),
         (r#""nobody": "127.0.0.1:7401""#, [":3:", "nobody", "is nobody"]),

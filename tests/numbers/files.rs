@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use bevy::math::ops;
 use proptest::prelude::*;
-use touchline::data::{AssetFolder, DataError};
+use touchline::data::{AssetFolder, AssetKind, DataError};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::scenario::ScenarioPlan;
 
@@ -14,16 +14,15 @@ use super::{SCENARIO, assert_on_pitch};
 use crate::support::assets;
 
 fn copy_assets(to: &Path) {
-    for kind in KINDS {
-        fs::create_dir_all(to.join(kind)).expect("a folder is made");
+    for kind in AssetKind::ALL.into_iter().filter(|kind| *kind != AssetKind::Scenario) {
+        fs::create_dir_all(to.join(kind.folder())).expect("a folder is made");
         for name in assets().names(kind) {
             let text = fs::read_to_string(assets().file(kind, &name)).expect("an asset can be read");
-            fs::write(to.join(kind).join(format!("{name}.ron")), text).expect("the asset is written");
+            fs::write(to.join(kind.folder()).join(format!("{name}.ron")), text)
+                .expect("the asset is written");
         }
     }
 }
-
-const KINDS: [&str; 6] = ["strategies", "robots", "pitches", "sensing", "radios", "matches"];
 
 /// Kind, name and match of files with all kinds of numbers; without a kind, the scenario.
 const FILES: [(&str, &str, &str); 16] = [

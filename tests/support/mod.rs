@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::ball::Ball;
-use touchline::data::{AssetFolder, Source};
+use touchline::data::{AssetFolder, AssetKind, Source};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::{Pose, Twist};
 use touchline::ids::{RobotId, Team};
@@ -33,7 +33,7 @@ pub fn digest_of(plan: &MatchPlan) -> u64 {
 
 /// The text of a shipped strategy.
 pub fn strategy_text(name: &str) -> (PathBuf, String) {
-    let path = assets().file("strategies", name);
+    let path = assets().file(AssetKind::Strategy, name);
     let text = std::fs::read_to_string(&path).expect("the shipped strategy can be read");
     (path, text)
 }
@@ -43,7 +43,7 @@ pub fn changed_strategy(name: &str, from: &str, to: &str) -> Arc<Strategy> {
     let (path, text) = strategy_text(name);
     assert!(text.contains(from), "`{from}` is not in {}", path.display());
     let changed = Source::new(path, text.replace(from, to));
-    Arc::new(Strategy::parse(&changed).expect("the changed strategy is sound"))
+    Arc::new(Strategy::parse(&assets(), &changed, None).expect("the changed strategy is sound"))
 }
 
 /// The truth about a robot.

@@ -344,6 +344,7 @@ impl Checker<'_> {
             for (i, robot) in group.iter().enumerate() {
                 self.robot(*robot, &at.index(side).index(i))?;
             }
+            self.source.distinct(&at.index(side), group)?;
         }
         match other.iter().position(|robot| one.contains(robot)) {
             Some(i) => self.fault(&at.index(1).index(i), format!("{} cannot be on both sides", other[i])),

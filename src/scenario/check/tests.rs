@@ -158,6 +158,10 @@ fn the_script_is_checked() {
             "Partition[1][1]: home 1 cannot be on both sides",
         ),
         (
+            r#"at: 1, what: Partition(["home 1", "home 1"], ["home 2"])"#,
+            "Partition[0][1]: `home 1` is given twice",
+        ),
+        (
             r#"at: 1, what: InitiateSwap(robot: "home 1", roles: [("floater", "back")])"#,
             "InitiateSwap.roles[0][1]: there is no role `back`",
         ),

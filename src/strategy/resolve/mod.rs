@@ -27,6 +27,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
     let scale = pitch.zip(file.pitch).map_or(Vec2::ONE, |(played, drawn)| played / drawn);
     let mut resolver = Resolver { file, source, scale, slots: 0, open: Vec::new(), depth: 0, work: 0 };
     resolver.check_sizes()?;
+    source.distinct(&root.key("robot_kinds"), &file.robot_kinds)?;
     resolver.check_named_pieces()?;
     let assemblages = (file.assemblages.iter())
         .map(|(name, assemblage)| resolver.assemblage(name, assemblage, &root.key("assemblages").key(name)))
@@ -251,6 +252,7 @@ impl Resolver<'_> {
             });
         }
         self.within(file.speed, Bound::SHARE, &at.key("speed"))?;
+        self.source.distinct(&at.key("kick"), &file.kick)?;
         Ok(State {
             name: name.into(),
             assemblage,

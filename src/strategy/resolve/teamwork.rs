@@ -13,6 +13,9 @@ impl Resolver<'_> {
         let left_out = TeamworkFile::default();
         let file = self.file.teamwork.as_ref().unwrap_or(&left_out);
         let at_hierarchy = at.key("hierarchy");
+        self.source.distinct(&at_hierarchy, &file.hierarchy)?;
+        let mechanisms = file.mechanisms.iter().flatten().map(|mechanism| format!("{mechanism:?}"));
+        self.source.distinct(&at.key("mechanisms"), &mechanisms.collect::<Vec<_>>())?;
         let mut ranks = vec![file.hierarchy.len(); self.file.roles.len()];
         for (rank, name) in file.hierarchy.iter().enumerate() {
             ranks[usize::from(self.role_index(name, &at_hierarchy.index(rank))?)] = rank;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::data::Source;
+use crate::data::{AssetFolder, Source};
 use crate::strategy::Strategy;
 
 /// A strategy of one player with these pieces.
@@ -16,7 +16,8 @@ fn with(pieces: &str) -> String {
 }
 
 fn read(text: &str) -> Result<Strategy, String> {
-    let read = Strategy::parse(&Source::new("x.ron", text)).map_err(|error| error.to_string());
+    let source = Source::new("x.ron", text);
+    let read = Strategy::parse(&AssetFolder::new("none"), &source, None).map_err(|error| error.to_string());
     if let Err(error) = &read {
         assert_eq!(error.lines().count(), 1, "{error}");
     }

@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, ChildStderr, Command, Stdio};
 
+use touchline::data::AssetKind;
 use touchline::game::Choice;
 
 use super::super::{free_addresses, stranger};
@@ -124,7 +125,7 @@ fn what_makes_no_sense_of_a_box_is_refused_in_one_line() {
 fn team_numbers_come_from_the_match_file_and_an_option_is_stronger() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("league.ron");
-    let sound = std::fs::read_to_string(crate::support::assets().file("matches", "friendly"))
+    let sound = std::fs::read_to_string(crate::support::assets().file(AssetKind::Match, "friendly"))
         .expect("the shipped file is there");
     let read = |home: &str, away: &str, option: Option<[u8; 2]>| {
         let text =

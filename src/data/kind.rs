@@ -1,0 +1,69 @@
+//! The kinds of files that there are, and what each is called.
+
+use std::fmt;
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum AssetKind {
+    Strategy,
+    Scenario,
+    Match,
+    Pitch,
+    Robot,
+    Sensing,
+    Radio,
+    /// Where robots and computers are.
+    Addresses,
+}
+
+impl AssetKind {
+    pub const ALL: [AssetKind; 8] = [
+        AssetKind::Strategy,
+        AssetKind::Scenario,
+        AssetKind::Match,
+        AssetKind::Pitch,
+        AssetKind::Robot,
+        AssetKind::Sensing,
+        AssetKind::Radio,
+        AssetKind::Addresses,
+    ];
+
+    /// The folder of its files among the assets.
+    pub const fn folder(self) -> &'static str {
+        match self {
+            AssetKind::Strategy => "strategies",
+            AssetKind::Scenario => "scenarios",
+            AssetKind::Match => "matches",
+            AssetKind::Pitch => "pitches",
+            AssetKind::Robot => "robots",
+            AssetKind::Sensing => "sensing",
+            AssetKind::Radio => "radios",
+            AssetKind::Addresses => "addresses",
+        }
+    }
+
+    /// Several of them, in words for people.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            AssetKind::Sensing => "sensing presets",
+            AssetKind::Addresses => "tables of addresses",
+            _ => self.folder(),
+        }
+    }
+}
+
+/// One of them, in words for people.
+impl fmt::Display for AssetKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            AssetKind::Strategy => "strategy",
+            AssetKind::Scenario => "scenario",
+            AssetKind::Match => "match",
+            AssetKind::Pitch => "pitch",
+            AssetKind::Robot => "robot",
+            AssetKind::Sensing => "sensing preset",
+            AssetKind::Radio => "radio",
+            AssetKind::Addresses => "table of addresses",
+        })
+    }
+}

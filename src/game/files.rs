@@ -1,0 +1,59 @@
+//! Reading the files that need no more than themselves, and finding those that another file names.
+
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+
+use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, TopLevel, no_such};
+use crate::tcm::Directory;
+use crate::tcm::external_message::Entity;
+
+/// Reads who is where.
+pub(crate) fn read_addresses(path: &Path) -> Result<Directory, DataError> {
+    let source = Source::read(path)?;
+    let directory: Directory = source.parse()?;
+    match directory.fault() {
+        Some((entity, message)) => Err(source.error_at(&entry_of(&source, entity), message)),
+        None => Ok(directory),
+    }
+}
+
+/// The entry of an entity, however its name is written; the last one of several.
+fn entry_of(source: &Source, entity: String) -> Field {
+    let wanted = entity.parse::<Entity>();
+    let written = match source.top_level() {
+        Ok(TopLevel::Map(keys)) => keys.into_iter().rev().find(|key| key.parse::<Entity>() == wanted),
+        _ => None,
+    };
+    Field::root().key(written.unwrap_or(entity))
+}
+
+/// The file of a kind that another file names in a field.
+///
+/// # Errors
+/// If there is no such file.
+pub(crate) fn file_named(
+    assets: &AssetFolder,
+    source: &Source,
+    kind: AssetKind,
+    (field, name): (&str, &str),
+) -> Result<PathBuf, DataError> {
+    let path = assets.file(kind, name);
+    if path.exists() {
+        return Ok(path);
+    }
+    Err(source.error_at(&Field::root().dotted(field), no_such(&kind.to_string(), name, assets.names(kind))))
+}
+
+/// Reads a file whose type checks its own numbers.
+pub(crate) fn checked<T: DeserializeOwned>(
+    path: &Path,
+    fault: impl Fn(&T) -> Option<Fault>,
+) -> Result<T, DataError> {
+    let source = Source::read(path)?;
+    let value: T = source.parse()?;
+    match fault(&value) {
+        Some((field, message)) => Err(source.error_at(&Field::root().dotted(&field), message)),
+        None => Ok(value),
+    }
+}

@@ -1,0 +1,136 @@
+//! One side of a match: what its files are, and the team that they come to.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use super::files::{checked, file_named};
+use super::line_up::LineUp;
+use super::plan::MatchPlan;
+use crate::ball::BallKind;
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
+use crate::ids::Team;
+use crate::pitch::Pitch;
+use crate::robot::RobotKind;
+use crate::sense::Sensing;
+use crate::strategy::{Strategy, StrategyReading};
+
+/// One side of a match: names of files.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TeamFile {
+    pub strategy: String,
+    pub robot: String,
+    pub sensing: String,
+    /// The league's number of the team, 0 to 254. Without numbers the first referee box that is heard decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub team_number: Option<u8>,
+}
+
+impl TeamFile {
+    /// Whether the files that a match or scenario names for a side are there; the strategy may be replaced.
+    pub(crate) fn check(
+        &self,
+        assets: &AssetFolder,
+        source: &Source,
+        side: &str,
+        with_strategy: bool,
+    ) -> Result<(), DataError> {
+        let strategy = (AssetKind::Strategy, "strategy", &self.strategy);
+        let others =
+            [(AssetKind::Robot, "robot", &self.robot), (AssetKind::Sensing, "sensing", &self.sensing)];
+        for (kind, field, name) in others.into_iter().chain(with_strategy.then_some(strategy)) {
+            file_named(assets, source, kind, (&format!("{side}.{field}"), name))?;
+        }
+        Ok(())
+    }
+}
+
+/// One side of a match.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TeamPlan {
+    /// The names of its files.
+    pub names: TeamFile,
+    pub strategy: Arc<Strategy>,
+    /// The files that the strategy rests on, its own first.
+    pub strategy_files: Vec<PathBuf>,
+    /// The roles by number that a scenario gives to players at kick-off in place of the strategy's.
+    pub roles: Vec<(u8, String)>,
+    pub kind: Arc<RobotKind>,
+    pub sensing: Arc<Sensing>,
+}
+
+impl TeamPlan {
+    pub(crate) fn read(
+        assets: &AssetFolder,
+        names: &TeamFile,
+        pitch: &Pitch,
+        ball: &BallKind,
+    ) -> Result<TeamPlan, DataError> {
+        let kind: RobotKind = checked(&assets.file(AssetKind::Robot, &names.robot), RobotKind::fault)?;
+        let StrategyReading { strategy, files } = read_strategy(assets, names, &kind, pitch, ball);
+        Ok(TeamPlan {
+            strategy: Arc::new(strategy?),
+            strategy_files: files,
+            kind: Arc::new(kind),
+            sensing: Arc::new(checked(&assets.file(AssetKind::Sensing, &names.sensing), Sensing::fault)?),
+            names: names.clone(),
+            roles: Vec::new(),
+        })
+    }
+
+    /// Gives players other roles at kick-off than the strategy does, by number.
+    ///
+    /// # Errors
+    /// If the strategy does not have such a role or player.
+    pub(crate) fn cast(&mut self, roles: Vec<(u8, String)>) -> Result<(), String> {
+        give_roles(Arc::make_mut(&mut self.strategy), &roles)?;
+        self.roles = roles;
+        Ok(())
+    }
+}
+
+impl MatchPlan {
+    /// Reads a team's strategy from its files as they are now, just as it was read for the match, for robots that play what
+    /// it was before.
+    pub fn reread(&self, team: Team, assets: &AssetFolder) -> StrategyReading {
+        let team = self.team(team);
+        let at = |field: &str| Field::root().key(field);
+        read_strategy(assets, &team.names, &team.kind, &self.pitch, &self.ball)
+            .require(|strategy| strategy.can_follow(&team.strategy).map_err(|reason| (at("players"), reason)))
+            .require(|strategy| give_roles(strategy, &team.roles).map_err(|reason| (at("roles"), reason)))
+    }
+}
+
+/// Reads a team's strategy, which must be one for its robots and for the pitch.
+fn read_strategy(
+    assets: &AssetFolder,
+    names: &TeamFile,
+    kind: &RobotKind,
+    pitch: &Pitch,
+    ball: &BallKind,
+) -> StrategyReading {
+    let path = assets.file(AssetKind::Strategy, &names.strategy);
+    Strategy::read(assets, &path, Some(pitch))
+        .require(|strategy| {
+            if strategy.robot_kinds.contains(&names.robot) {
+                return Ok(());
+            }
+            let message = format!("cannot be played by a `{}`: add it here if it can", names.robot);
+            Err((Field::root().key("robot_kinds"), message))
+        })
+        .require(|strategy| LineUp::new(kind, ball, pitch).fault(&strategy.kick_off).map_or(Ok(()), Err))
+}
+
+fn give_roles(strategy: &mut Strategy, roles: &[(u8, String)]) -> Result<(), String> {
+    for (number, wanted) in roles {
+        let role = strategy.roles.iter().position(|role| role.name == *wanted);
+        let place = strategy.players.get_mut(usize::from(*number));
+        let (role, place) = role.zip(place).ok_or_else(|| {
+            format!("there is no role `{wanted}`, which the scenario gives to player {number}")
+        })?;
+        *place = role;
+    }
+    Ok(())
+}
