@@ -59,6 +59,8 @@ impl Bound {
     pub const FACTOR: Bound = Bound::up_to(1000.0, "");
     pub const WEIGHT: Bound = Bound::FACTOR.signed();
     pub const BYTES: Bound = Bound::up_to(1e9, " bytes");
+    /// On a screen.
+    pub const POINTS: Bound = Bound::up_to(100_000.0, " points");
 
     const fn up_to(most: f32, unit: &'static str) -> Bound {
         Bound { least: 0.0, most, unit }

@@ -127,7 +127,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::data::{AssetFolder, AssetKind, Source};
+    use crate::data::{AssetFolder, AssetKind};
 
     const PLACE: Place = Place { team: Team::Away, assemblage: 0, term: 0 };
 

@@ -8,7 +8,7 @@ use super::calls::Trouble;
 use super::expectations::Expectations;
 use super::state::{Pace, Piloted, Screen, Selected};
 use crate::clock::Clock;
-use crate::data::{AssetFolder, AssetKind, DataError};
+use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan, start_match};
 use crate::ids::Team;
 use crate::rng::DEFAULT_SEED;
@@ -135,6 +135,7 @@ fn begin(world: &mut World, wanted: Wanted, (plan, scenario): Plans) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::data::AssetKind;
 
     #[test]
     fn a_scenario_is_played_with_its_first_seed_or_with_the_one_asked_for() {

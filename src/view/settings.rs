@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::opened::{Opened, Remembered};
-use crate::data::{DataError, Field, Source};
+use crate::data::{Bound, DataError, Field, Source};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<PanelSizes>()
@@ -75,7 +75,7 @@ impl Settings {
         let PanelSizes { inspector, radio, communication } = settings.sizes;
         let sizes = Field::default().key("sizes");
         for (name, size) in [("inspector", inspector), ("radio", radio), ("communication", communication)] {
-            source.finite(&sizes.key(name), size)?;
+            source.within(&sizes.key(name), size, Bound::POINTS)?;
         }
         Ok(Some(settings))
     }
