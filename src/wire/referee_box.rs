@@ -7,6 +7,7 @@ use bevy::log::{info, warn};
 use bevy::prelude::*;
 
 use super::box_log::{BoxLog, ignored_line, new_penalties};
+use super::remote::TURN;
 use super::robot_status::Observers;
 use super::{WireError, WirePlan};
 use crate::clock::Clock;
@@ -61,11 +62,12 @@ impl BoxSocket {
         }
     }
 
-    /// Takes all packets that have arrived.
+    /// Takes the packets that have arrived.
     fn hear(&mut self, clock: &Clock, news: &mut BoxNews) {
         let now = millis(clock);
         let mut view: Option<View> = None;
-        while let Ok(Some((from, bytes))) = self.conn.receive() {
+        for _ in 0..TURN {
+            let Ok(Some((from, bytes))) = self.conn.receive() else { break };
             match self.follower.hear(from, bytes, now) {
                 Ok(None) => {}
                 Ok(Some(next)) => {

@@ -29,13 +29,15 @@ impl Observers {
         }
     }
 
-    /// Tells the box at this address where each robot believes itself and the ball to be.
+    /// Tells the box at this address where each robot believes itself and the ball to be. One that does not know yet where
+    /// it is says nothing.
     pub fn tell(&self, world: &mut World, conn: &mut UdpConn, sender: SocketAddr, teams: [u8; 2]) {
         let clock = *world.resource::<Clock>();
         let to = SocketAddr::new(sender.ip(), PORT);
         let mut robots = world.query::<(&RobotId, &Robot, &WorldModel)>();
         let mut packets: Vec<(RobotId, StatusPacket)> = (robots.iter(world))
             .filter(|(_, robot, _)| !robot.condition.crashed && !robot.condition.mute)
+            .filter(|(_, _, model)| model.is_localised())
             .map(|(id, _, model)| (*id, self.status(*id, teams[id.team.index()], model, &clock)))
             .collect();
         packets.sort_unstable_by_key(|(id, _)| *id);
