@@ -4,7 +4,7 @@ use bevy::prelude::Vec2;
 
 use super::walking::{is_kickers_place, misplaced};
 use super::{Laws, Observation, returns};
-use crate::geometry::Pose;
+use crate::geometry::{Attacking, Pose};
 use crate::ids::RobotId;
 use crate::referee::decision::{Decision, PlacementReason};
 use crate::referee::rulebook::{KickOffStyle, ReturnPlace, RuleBook};
@@ -61,12 +61,21 @@ pub(super) fn line_up(
     for (robot, _) in observation.on_field(state) {
         let attacks = state.attacking(robot.team);
         let is_placed = returned.iter().any(|(other, _)| *other == robot);
-        let at = returns::place_at_side_line(laws, ReturnPlace::OwnHalf, Vec2::ZERO, attacks, &taken);
-        if let Some(at) = at.filter(|_| !is_placed) {
-            taken.push(at.position);
-            decisions.push(Decision::RobotPlaced { robot, at });
+        if is_placed {
+            continue;
         }
+        let beside = |taken: &[Vec2]| {
+            returns::place_at_side_line(laws, ReturnPlace::OwnHalf, Vec2::ZERO, attacks, taken)
+        };
+        // Where the side lines are full, it is put down next to another.
+        let at = beside(&taken).or_else(|| beside(&[])).unwrap_or_else(|| in_own_half(laws, attacks));
+        taken.push(at.position);
+        decisions.push(Decision::RobotPlaced { robot, at });
     }
+}
+
+fn in_own_half(laws: &Laws, attacks: Attacking) -> Pose {
+    attacks.turn_pose(Pose::new(-laws.pitch.half_size().x / 2.0, 0.0, 0.0))
 }
 
 /// Where people put a robot that stands wrongly, all worse places than it might have walked to: the robot that kicks off
@@ -105,7 +114,6 @@ const ROWS: u8 = 4;
 
 #[cfg(test)]
 mod tests {
-    use crate::geometry::Attacking;
     use crate::ids::Team;
     use crate::referee::rules::table::Table;
 
@@ -137,6 +145,18 @@ mod tests {
         }
         let all_at_once = table.times(|d| matches!(d, Decision::RobotsPlaced { .. }));
         assert!(all_at_once.is_empty());
+    }
+
+    #[test]
+    fn a_half_begins_with_all_robots_on_the_pitch_however_much_room_the_book_wants() {
+        for room in [1.0, 5.0] {
+            let mut table = Table::four_legged(60);
+            table.book.spot_clearance = room;
+            table.restart(Team::Home);
+            table.run(1.0 / 60.0);
+            let placed = table.times(|d| matches!(d, Decision::RobotPlaced { .. }));
+            assert_eq!(placed.len(), table.robots.len(), "{room} m");
+        }
     }
 
     #[test]
