@@ -1,7 +1,7 @@
-//! The command line; see [`touchline::cli`].
+//! The command line; see [`touchline::app::cli`].
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    touchline::cli::main()
+    touchline::app::cli::main()
 }

@@ -1,10 +1,10 @@
 //! Ball booking in whole matches of four-legged robots: what it is worth against the crowd around the ball, and what its four
 //! requirements come to while robots see badly and the radio loses messages.
 
+use touchline::game::record::Record;
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::Team;
-use touchline::record::Record;
-use touchline::referee::Phase;
+use touchline::world::referee::Phase;
 
 use crate::support::assets;
 

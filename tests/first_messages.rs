@@ -5,17 +5,17 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::clock::{Clock, TICK_HZ};
+use touchline::comms::messages::{
+    BallReport, Book, GoalieBehaviour, GoalieNews, HaveBall, Message, Position, Values,
+};
+use touchline::comms::tcm::{Arrived, Data, as_robot};
 use touchline::data::AssetKind;
+use touchline::game::requests::{Request, Treatment};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::messages::{
-    BallReport, Book, GoalieBehaviour, GoalieNews, HaveBall, Message, Position, Values,
-};
 use touchline::robot::{Ailment, Recall};
-use touchline::script::{Request, Treatment};
-use touchline::sense::Eyes;
-use touchline::tcm::{Arrived, Data, as_robot};
+use touchline::world::sense::Eyes;
 
 use crate::support::{assets, ball, robot};
 

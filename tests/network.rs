@@ -10,15 +10,15 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
+use touchline::comms::messages::Text;
+use touchline::comms::radio::Traffic;
+use touchline::comms::tcm::external_message::Entity as Party;
+use touchline::comms::tcm::fragments::{Assembly, Limits, USUAL_DATAGRAM, cut};
+use touchline::comms::tcm::udp::UdpError;
+use touchline::comms::tcm::{Address, Data, DataType, Directory, ExternalMessage, HOST, Module, Tcm, party};
+use touchline::game::net::{self, CarrierFigures, Greeting, UdpCarrier, WireError, WirePlan};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
-use touchline::messages::Text;
-use touchline::radio::Traffic;
-use touchline::tcm::external_message::Entity as Party;
-use touchline::tcm::fragments::{Assembly, Limits, USUAL_DATAGRAM, cut};
-use touchline::tcm::udp::UdpError;
-use touchline::tcm::{Address, Data, DataType, Directory, ExternalMessage, HOST, Module, Tcm, party};
-use touchline::wire::{self, CarrierFigures, Greeting, UdpCarrier, WireError, WirePlan};
 
 use crate::support::{assets, digest_of};
 
@@ -80,7 +80,7 @@ fn open(plan: &MatchPlan) -> (Match, MatchPlan) {
             *address = free_addresses(1)[0];
         }
         let mut game = Match::new(&plan);
-        match wire::open(game.world_mut(), &plan) {
+        match net::open(game.world_mut(), &plan) {
             Ok(()) => return (game, plan),
             Err(WireError::Udp(UdpError::Bind { .. })) => {}
             Err(error) => panic!("{error}"),
@@ -90,7 +90,7 @@ fn open(plan: &MatchPlan) -> (Match, MatchPlan) {
 
 /// Waits until all robots in other processes take part; they come for certain.
 fn greet(game: &mut Match) {
-    let greeting = wire::greet(game.world_mut(), Duration::MAX, &mut |_| true);
+    let greeting = net::greet(game.world_mut(), Duration::MAX, &mut |_| true);
     assert_eq!(greeting.expect("they come"), Greeting::Done);
 }
 
@@ -129,7 +129,7 @@ fn a_match_over_sockets_is_the_very_match_over_a_radio_that_loses_nothing() {
         while !game.is_over() {
             game.tick();
         }
-        wire::finish(game.world_mut());
+        net::finish(game.world_mut());
         assert_eq!(game.record().digest, digest_of(&by_radio), "{file}");
         let figures = figures(&game);
         assert!(figures.sent > 500, "{file}: {figures:?}");
@@ -158,7 +158,7 @@ fn what_is_not_ours_is_counted_and_changes_nothing() {
         }
         game.tick();
     }
-    wire::finish(game.world_mut());
+    net::finish(game.world_mut());
     let figures = figures(&game);
     let times = u64::from(times);
     assert!(times >= 10, "{times}");
@@ -223,7 +223,7 @@ fn an_address_that_is_taken_or_missing_is_named_and_no_socket_stays_open() {
         (missing, "home 1 has no address: add it to the addresses".to_owned()),
     ] {
         let mut game = Match::new(&plan);
-        let error = wire::open(game.world_mut(), &plan).expect_err("it cannot be played").to_string();
+        let error = net::open(game.world_mut(), &plan).expect_err("it cannot be played").to_string();
         assert!(error.starts_with(&expected) && error.lines().count() == 1, "{error}");
         assert!(!game.world().contains_resource::<UdpCarrier>());
         UdpSocket::bind(first).expect("the first robot's socket was closed again");

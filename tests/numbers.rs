@@ -7,14 +7,14 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use bevy::prelude::*;
-use touchline::ball::Ball;
 use touchline::game::Match;
+use touchline::game::requests::{Request, Requests, Shove};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
+use touchline::lab::scenario::ScenarioPlan;
 use touchline::pitch::Pitch;
 use touchline::robot::OffPitch;
-use touchline::scenario::ScenarioPlan;
-use touchline::script::{Request, Requests, Shove};
+use touchline::world::ball::Ball;
 
 use crate::support::{assets, ball, robot};
 

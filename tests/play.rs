@@ -7,12 +7,12 @@ use touchline::data::{AssetKind, Source};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::RobotId;
-use touchline::motor::SteeringIntent;
+use touchline::mind::motor::SteeringIntent;
+use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
-use touchline::referee::Phase;
 use touchline::robot::{OffPitch, Robot};
-use touchline::sense::Sensing;
-use touchline::world_model::WorldModel;
+use touchline::world::referee::Phase;
+use touchline::world::sense::Sensing;
 
 use crate::support::{assets, ball, friendly};
 

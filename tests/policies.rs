@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
+use touchline::comms::messages::MessageKind;
+use touchline::comms::radio::MessageCounts;
 use touchline::data::{AssetKind, ron_options};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
-use touchline::messages::MessageKind;
-use touchline::radio::MessageCounts;
-use touchline::scenario::ScenarioPlan;
-use touchline::teamwork::Role;
-use touchline::teamwork::policy::Policy;
+use touchline::lab::scenario::ScenarioPlan;
+use touchline::mind::teamwork::Role;
+use touchline::mind::teamwork::policy::Policy;
 
 use crate::support::assets;
 

@@ -3,12 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use bevy::prelude::*;
+use touchline::comms::radio::{Envelope, Loss, Outcome, Payload, RadioLog, Traffic};
+use touchline::game::record::Record;
+use touchline::game::requests::{Request, Requests, Treatment};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
-use touchline::radio::{Envelope, Loss, Outcome, Payload, RadioLog, Traffic};
-use touchline::record::Record;
 use touchline::robot::Ailment;
-use touchline::script::{Request, Requests, Treatment};
 
 use crate::support::assets;
 

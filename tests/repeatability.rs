@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use touchline::game::requests::{Request, Requests};
 use touchline::game::{Match, start_match};
 use touchline::ids::{RobotId, Team};
-use touchline::pilot::Pilot;
-use touchline::script::{Request, Requests};
+use touchline::robot::pilot::Pilot;
 
 use crate::support::{changed_strategy, digest_of, friendly, robot};
 

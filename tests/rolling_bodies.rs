@@ -6,14 +6,14 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::{RapierRigidBodyHandle, RapierRigidBodySet};
 use bevy_rapier2d::rapier::dynamics::RigidBody;
 use bevy_rapier2d::rapier::math::rotation_from_angle;
-use touchline::ball::Ball;
+use touchline::game::requests::{Request, Requests};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::{Pose, Twist, wrap_angle};
 use touchline::ids::{RobotId, Team};
-use touchline::pilot::Pilot;
-use touchline::referee::Phase;
 use touchline::robot::Trailer;
-use touchline::script::{Request, Requests};
+use touchline::robot::pilot::Pilot;
+use touchline::world::ball::Ball;
+use touchline::world::referee::Phase;
 
 use crate::support::{ball, friendly, robot};
 

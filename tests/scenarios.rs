@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use touchline::data::AssetKind;
-use touchline::scenario::{Report, ScenarioPlan};
+use touchline::lab::scenario::{Report, ScenarioPlan};
 
 use crate::support::assets;
 

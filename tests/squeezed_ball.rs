@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use bevy::prelude::*;
+use touchline::game::record::TOLERANCE;
+use touchline::game::requests::{Request, Requests};
 use touchline::game::{Choice, Match, MatchPlan, Placed, Situation};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::pilot::Pilot;
-use touchline::record::TOLERANCE;
-use touchline::script::{Request, Requests};
+use touchline::robot::pilot::Pilot;
 
 use crate::support::{assets, ball};
 

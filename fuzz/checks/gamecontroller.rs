@@ -2,9 +2,9 @@
 
 use std::net::{Ipv4Addr, SocketAddr};
 
-use touchline::gamecontroller::control::{ControlPacket, PacketError, Penalty, Version};
-use touchline::gamecontroller::referee_box::RefereeBox;
-use touchline::gamecontroller::status::{STATUS_LEN, StatusPacket};
+use touchline::world::gamecontroller::control::{ControlPacket, PacketError, Penalty, Version};
+use touchline::world::gamecontroller::referee_box::RefereeBox;
+use touchline::world::gamecontroller::status::{STATUS_LEN, StatusPacket};
 
 /// A control packet is written as it was read, and what is refused does not begin as one of its length.
 pub fn control(data: &[u8]) {

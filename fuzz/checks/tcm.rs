@@ -1,8 +1,8 @@
 //! What must hold of the TCM whatever arrives. The fuzz targets call it with new inputs, the tests with those in the corpus.
 #![allow(dead_code, reason = "each fuzz target calls one of these")]
 
-use touchline::tcm::external_message::{Address, DataType, Entity, ExternalMessage, Module};
-use touchline::tcm::fragments::{Assembly, HEADER, Header, Limits, cut};
+use touchline::comms::tcm::external_message::{Address, DataType, Entity, ExternalMessage, Module};
+use touchline::comms::tcm::fragments::{Assembly, HEADER, Header, Limits, cut};
 
 const LIMITS: Limits = Limits { messages: 4, bytes: 16_000, message_bytes: 4_000, patience: 8 };
 

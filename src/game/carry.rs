@@ -4,23 +4,23 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
-use crate::ball::{Ball, Rolling};
-use crate::behaviour::Activity;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
-use crate::handling::Handling;
 use crate::ids::{RobotId, Team};
-use crate::motor::SteeringIntent;
-use crate::perception::Memory;
-use crate::physics::Room;
+use crate::mind::behaviour::Activity;
+use crate::mind::motor::SteeringIntent;
+use crate::mind::perception::Memory;
+use crate::mind::teamwork::Role;
+use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
-use crate::referee::{Calls, Decision, MatchState, Orders, Phase, RuleBook, judge};
 use crate::robot::{DriveCommand, OffPitch, Robot, RobotBodies};
 use crate::schedule::{Tick, TickSystems};
-use crate::sense::{Eyesight, Percepts};
 use crate::strategy::{Strategies, Strategy};
-use crate::teamwork::Role;
-use crate::world_model::WorldModel;
+use crate::world::ball::{Ball, Rolling};
+use crate::world::handling::Handling;
+use crate::world::physics::Room;
+use crate::world::referee::{Calls, Decision, MatchState, Orders, Phase, RuleBook, judge};
+use crate::world::sense::{Eyesight, Percepts};
 
 pub(super) fn plugin(app: &mut App) {
     let hands = (place_ball, place_robots, tell_robots).chain();
@@ -211,7 +211,8 @@ mod tests {
     fn robots_take_the_places_of_their_roles_and_share_out_what_nobody_takes() {
         let places = [-1.0, -2.0, -3.0].map(|x| Vec2::new(x, 0.0));
         let kick_off = KickOff { ours: places.to_vec(), theirs: places.to_vec() };
-        let strategy = Strategy { players: vec![5, 6, 7], kick_off, ..crate::perception::fixture::idle() };
+        let strategy =
+            Strategy { players: vec![5, 6, 7], kick_off, ..crate::mind::perception::fixture::idle() };
         let x = |roles: &[(u8, usize)]| -> Vec<f32> {
             kick_off_poses(&strategy, roles, true).iter().map(|(_, pose)| pose.position.x).collect()
         };

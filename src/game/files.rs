@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
+use crate::comms::tcm::Directory;
+use crate::comms::tcm::external_message::Entity;
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, TopLevel, no_such};
-use crate::tcm::Directory;
-use crate::tcm::external_message::Entity;
 
 /// Reads who is where.
 pub(crate) fn read_addresses(path: &Path) -> Result<Directory, DataError> {

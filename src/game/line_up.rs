@@ -2,13 +2,13 @@
 
 use bevy::prelude::*;
 
-use crate::ball::BallKind;
 use crate::data::Field;
 use crate::geometry::Pose;
-use crate::physics::Footprint;
 use crate::pitch::Pitch;
 use crate::robot::RobotKind;
 use crate::strategy::KickOff;
+use crate::world::ball::BallKind;
+use crate::world::physics::Footprint;
 
 /// What stands on the pitch at a kick-off.
 pub(super) struct LineUp {
@@ -71,7 +71,7 @@ fn standing(position: Vec2) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perception::fixture::{BALL, cye, pitch};
+    use crate::mind::perception::fixture::{BALL, cye, pitch};
 
     fn fault(theirs: &[(f32, f32)]) -> Option<String> {
         let place = |(x, y): &(f32, f32)| Vec2::new(*x, *y);

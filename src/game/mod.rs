@@ -3,7 +3,10 @@
 mod carry;
 mod files;
 mod line_up;
+pub mod net;
 mod plan;
+pub mod record;
+pub mod requests;
 mod situation;
 mod spawn;
 mod team;
@@ -15,23 +18,22 @@ pub use team::{TeamFile, TeamPlan};
 
 pub use situation::{Placed, Situation};
 
-use crate::ball::Ball;
 use crate::clock::Clock;
+use crate::comms::radio::{Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
+use crate::comms::tcm::{Addresses, Incoming, OnAir};
+use crate::game::record::Record;
+use crate::game::requests::{Requests, Script};
 use crate::ids::{MatchEntity, RobotId, Team};
-use crate::physics::open_world;
-use crate::radio::{Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
-use crate::record::Record;
-use crate::referee::{Calls, MatchState, Phase, Whistles};
 use crate::rng::Seed;
 use crate::schedule::Tick;
-use crate::script::{Requests, Script};
 use crate::strategy::Strategies;
-use crate::tcm::{Addresses, Incoming, OnAir};
-use crate::wire;
+use crate::world::ball::Ball;
+use crate::world::physics::open_world;
+use crate::world::referee::{Calls, MatchState, Phase, Whistles};
 use spawn::{spawn_ball, spawn_mind, spawn_planned};
 
 pub(super) fn plugin(app: &mut App) {
-    carry::plugin(app);
+    app.add_plugins((carry::plugin, requests::plugin, net::plugin, record::plugin));
 }
 
 /// Ends the match in this world, if there is one, and starts another from the beginning.
@@ -40,7 +42,7 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     for entity in old.iter(world).collect::<Vec<_>>() {
         world.despawn(entity);
     }
-    wire::close(world);
+    net::close(world);
     let seed = Seed(plan.seed);
     let clock = Clock::default();
     world.insert_resource(clock);
@@ -91,7 +93,7 @@ pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity
 
 /// Plays one tick: first what crosses the network, if anything does, then the match.
 pub fn advance(world: &mut World) {
-    wire::exchange(world);
+    net::exchange(world);
     world.run_schedule(Tick);
 }
 

@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 use super::files::{checked, file_named, read_addresses};
 use super::situation::Situation;
 use super::team::{TeamFile, TeamPlan};
-use crate::ball::BallKind;
+use crate::comms::radio::{FaultRule, Radio};
+use crate::comms::tcm::{Directory, HOST, TcmSettings};
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, no_such};
+use crate::game::net::{WirePlan, team_numbers_fault};
+use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
-use crate::radio::{FaultRule, Radio};
-use crate::referee::RuleBook;
-use crate::script::Request;
-use crate::tcm::{Directory, HOST, TcmSettings};
-use crate::wire::{WirePlan, team_numbers_fault};
+use crate::world::ball::BallKind;
+use crate::world::referee::RuleBook;
 
 /// A match as it is written in `assets/matches/*.ron`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

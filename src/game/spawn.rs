@@ -7,27 +7,27 @@ use bevy_rapier2d::prelude::*;
 
 use super::MatchPlan;
 use super::carry::beside_the_pitch;
-use crate::ball::{Ball, BallDice, Rolling};
-use crate::behaviour::Activity;
 use crate::clock::Clock;
-use crate::drive::GaitError;
+use crate::comms::messages::Inbox;
+use crate::comms::tcm::{Tcm, TcmClient, TcmSettings};
 use crate::geometry::{Pose, Twist};
-use crate::handling::{Handling, KickIntent};
-use crate::head::{Head, HeadIntent};
 use crate::ids::{MatchEntity, RobotId};
-use crate::messages::Inbox;
-use crate::motor::{Contributions, MotorDice, SteeringIntent};
-use crate::perception::Memory;
-use crate::physics::{register_bodies, trailer_shape, unit_shapes};
-use crate::pilot::Pilot;
-use crate::referee::{MatchState, Orders, RobotState};
+use crate::mind::behaviour::Activity;
+use crate::mind::motor::{Contributions, MotorDice, SteeringIntent};
+use crate::mind::perception::Memory;
+use crate::mind::teamwork::{Booking, Role, Swapping, TeamPicture};
+use crate::mind::world_model::WorldModel;
 use crate::rng::Seed;
+use crate::robot::pilot::Pilot;
 use crate::robot::{DriveCommand, Robot, RobotBodies, RobotKind, Trailer};
-use crate::sense::{Eyesight, Odometry, Percepts, Sensing};
 use crate::strategy::Strategy;
-use crate::tcm::{Tcm, TcmClient, TcmSettings};
-use crate::teamwork::{Booking, Role, Swapping, TeamPicture};
-use crate::world_model::WorldModel;
+use crate::world::ball::{Ball, BallDice, Rolling};
+use crate::world::drive::GaitError;
+use crate::world::handling::{Handling, KickIntent};
+use crate::world::head::{Head, HeadIntent};
+use crate::world::physics::{register_bodies, trailer_shape, unit_shapes};
+use crate::world::referee::{MatchState, Orders, RobotState};
+use crate::world::sense::{Eyesight, Odometry, Percepts, Sensing};
 
 /// Spawns the ball where the match begins.
 pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {

@@ -1,4 +1,4 @@
-//! The pitch as data: sizes, goals, penalty areas and penalty spots. Walls become colliders in [`crate::physics`].
+//! The pitch as data: sizes, goals, penalty areas and penalty spots. Walls become colliders in [`crate::world::physics`].
 //!
 //! Everything is in metres in the pitch frame. A pitch is symmetric, so one goal and one penalty area describe both.
 

@@ -4,6 +4,7 @@ mod condition;
 mod gait;
 mod kind;
 mod legs;
+pub mod pilot;
 mod wheel_speeds;
 
 use std::sync::Arc;

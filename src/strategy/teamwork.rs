@@ -4,9 +4,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::role_ref::RoleRef;
+use crate::mind::teamwork::policy::{Cast, Policy};
 use crate::protocol::b3p;
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
-use crate::teamwork::policy::{Cast, Policy};
 
 /// A mechanism of collaboration or coordination, each of which can be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use std::path::Path;
 use touchline::data::{AssetKind, DataError};
 use touchline::game::{Choice, MatchPlan};
 use touchline::ids::Team;
-use touchline::scenario::ScenarioPlan;
+use touchline::lab::scenario::ScenarioPlan;
 use touchline::strategy::Strategy;
 
 use super::{Own, shipped};

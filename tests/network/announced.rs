@@ -2,14 +2,14 @@
 
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 
+use touchline::comms::tcm::Tcm;
+use touchline::game::net::{self, WirePlan};
+use touchline::game::requests::{Request, Requests, Treatment};
 use touchline::game::{Match, MatchPlan};
-use touchline::gamecontroller::control::{Colour, ControlPacket, Penalty, State, Version};
-use touchline::gamecontroller::referee_box::RefereeBox;
 use touchline::ids::{RobotId, Team};
-use touchline::referee::Phase;
-use touchline::script::{Request, Requests, Treatment};
-use touchline::tcm::Tcm;
-use touchline::wire::{self, WirePlan};
+use touchline::world::gamecontroller::control::{Colour, ControlPacket, Penalty, State, Version};
+use touchline::world::gamecontroller::referee_box::RefereeBox;
+use touchline::world::referee::Phase;
 
 use super::referee_box::{IN_THE_EASTERN_GOAL, put_ball};
 use super::{open, plan, stranger, talkative};
@@ -75,7 +75,7 @@ fn a_match_that_is_announced_can_be_followed_with_its_score_state_and_seconds() 
         assert_eq!(penalised.collect::<Vec<_>>(), off);
     }
     assert_eq!(game.state().score, [1, 0], "there was something to follow");
-    wire::finish(game.world_mut());
+    net::finish(game.world_mut());
     states.extend(packets(&socket).iter().map(|packet| (packet.first_half.is_set(), packet.state)));
     states.dedup();
     let half = |first| move |state| (first, state);
@@ -114,7 +114,7 @@ fn the_budget_of_messages_is_counted_down_in_every_version() {
         while !game.is_over() {
             game.tick();
         }
-        wire::finish(game.world_mut());
+        net::finish(game.world_mut());
         let packets = packets(&socket);
         assert!(packets.iter().all(|packet| packet.version == version));
         let told =
@@ -160,7 +160,7 @@ fn a_match_is_announced_by_broadcast_and_over_ipv6() {
 fn the_wall_clock_decides_once_a_window_asks_for_it_and_a_failure_is_told_once() {
     let (mut game, socket) = announced(talkative(10.0));
     let frames = |game: &mut Match, count| {
-        (0..count).filter_map(|_| wire::announce_in_real_time(game.world_mut(), 0.125)).collect::<Vec<_>>()
+        (0..count).filter_map(|_| net::announce_in_real_time(game.world_mut(), 0.125)).collect::<Vec<_>>()
     };
     assert!(frames(&mut game, 40).is_empty());
     assert_eq!(packets(&socket).len(), 10, "five seconds in which no tick runs");

@@ -6,15 +6,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use touchline::game::{Match, MatchPlan};
-use touchline::ids::RobotId;
-use touchline::messages::Text;
-use touchline::tcm::external_message::Entity as Party;
-use touchline::tcm::fragments::{Assembly, Limits};
-use touchline::tcm::{Addresses, Data, ExternalMessage, HOST, party};
-use touchline::wire::{
+use touchline::comms::messages::Text;
+use touchline::comms::tcm::external_message::Entity as Party;
+use touchline::comms::tcm::fragments::{Assembly, Limits};
+use touchline::comms::tcm::{Addresses, Data, ExternalMessage, HOST, party};
+use touchline::game::net::{
     self, Greeting, Introduction, RobotEnd, RobotProcess, RobotReport, WireError, WirePlan,
 };
+use touchline::game::{Match, MatchPlan};
+use touchline::ids::RobotId;
 
 use super::{HOME_0, HOME_1, address_of, datagram, figures, greet, open, stranger, talkative};
 use crate::support::digest_of;
@@ -36,7 +36,7 @@ impl Elsewhere {
         let stopped = stops.clone();
         let play = move || {
             let mut process = RobotProcess::open(&plan, robot, address_of(&plan, robot))?;
-            process.play(wire::PATIENCE, &|| stopped.load(Ordering::Relaxed))
+            process.play(net::PATIENCE, &|| stopped.load(Ordering::Relaxed))
         };
         Elsewhere { stops, thread: Some(std::thread::spawn(play)) }
     }
@@ -62,12 +62,12 @@ fn ticks(game: &mut Match, count: u32) {
 }
 
 fn answered(game: &Match) -> u64 {
-    wire::remote_figures(game.world())[0].answered
+    net::remote_figures(game.world())[0].answered
 }
 
 /// Plays on until the robot is missed.
 fn until_it_is_missed(game: &mut Match) {
-    while wire::poll_greeting(game.world_mut()) == Greeting::Done {
+    while net::poll_greeting(game.world_mut()) == Greeting::Done {
         game.tick();
     }
 }
@@ -95,7 +95,7 @@ fn a_match_and_a_robot_that_is_told_to_stop_report_what_they_have_done_so_far() 
 fn the_wait_for_robots_ends_when_somebody_wants_it_to() {
     let (mut game, plan) = open(&with_remote(talkative(0.1), &[HOME_0, HOME_1]));
     let mut asked = 0;
-    let greeting = wire::greet(game.world_mut(), Duration::MAX, &mut |awaited| {
+    let greeting = net::greet(game.world_mut(), Duration::MAX, &mut |awaited| {
         asked += 1;
         awaited.len() == 2 && asked < 3
     });
@@ -121,7 +121,7 @@ fn a_robot_that_comes_back_is_taken_in_again() {
     while answered(&game) < before + 5 {
         game.tick();
     }
-    assert_eq!(wire::poll_greeting(game.world_mut()), Greeting::Done);
+    assert_eq!(net::poll_greeting(game.world_mut()), Greeting::Done);
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn who_comes_back_with_another_strategy_is_refused_and_the_match_goes_on() {
     let mut back = Elsewhere::start(&other, HOME_1);
     let refusal = loop {
         game.tick();
-        let Greeting::Awaiting(awaited) = wire::poll_greeting(game.world_mut()) else {
+        let Greeting::Awaiting(awaited) = net::poll_greeting(game.world_mut()) else {
             panic!("it is another")
         };
         if let Some(refusal) = awaited[0].refusal.clone() {
@@ -152,8 +152,8 @@ fn who_comes_back_with_another_strategy_is_refused_and_the_match_goes_on() {
 fn a_robot_given_up_before_the_first_tick_plays_as_if_it_had_never_been_elsewhere() {
     let by_radio = talkative(0.1);
     let (mut game, _) = open(&with_remote(by_radio.clone(), &[HOME_1]));
-    wire::give_up(game.world_mut(), HOME_1).expect("its address is free");
-    assert_eq!(wire::poll_greeting(game.world_mut()), Greeting::Done);
+    net::give_up(game.world_mut(), HOME_1).expect("its address is free");
+    assert_eq!(net::poll_greeting(game.world_mut()), Greeting::Done);
     while !game.is_over() {
         game.tick();
     }
@@ -169,8 +169,8 @@ fn a_robot_given_up_in_the_midst_of_a_match_plays_on_here_though_somebody_has_it
     robot.stop();
     until_it_is_missed(&mut game);
     let taken = UdpSocket::bind(address_of(&plan, HOME_1)).expect("the robot is gone");
-    wire::give_up(game.world_mut(), HOME_1).expect("there are other ports");
-    assert_eq!(wire::poll_greeting(game.world_mut()), Greeting::Done);
+    net::give_up(game.world_mut(), HOME_1).expect("there are other ports");
+    assert_eq!(net::poll_greeting(game.world_mut()), Greeting::Done);
     let directory = game.world().resource::<Addresses>().0.clone();
     assert_ne!(directory.address_of(party(HOME_1)), taken.local_addr().ok());
     let before = figures(&game);
@@ -181,7 +181,7 @@ fn a_robot_given_up_in_the_midst_of_a_match_plays_on_here_though_somebody_has_it
     while !game.is_over() {
         game.tick();
     }
-    wire::finish(game.world_mut());
+    net::finish(game.world_mut());
     let after = figures(&game);
     assert_eq!(after.sent - before.sent, after.received - before.received, "everybody hears everybody");
     assert_eq!(after.foreign, before.foreign);
@@ -196,7 +196,7 @@ fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
     let robot = UdpSocket::bind(address_of(&plan, HOME_1)).expect("it was free");
     for bytes in [b"hello".to_vec(), datagram(party(HOME_1), HOST, 1, &text)] {
         robot.send_to(&bytes, host).expect("it is sent");
-        let Greeting::Awaiting(awaited) = wire::poll_greeting(game.world_mut()) else {
+        let Greeting::Awaiting(awaited) = net::poll_greeting(game.world_mut()) else {
             panic!("it is no robot")
         };
         let refusal = awaited[0].refusal.as_ref().expect("it has been heard");
@@ -221,7 +221,7 @@ fn a_match_that_stands_still_reminds_its_robots_that_it_is_there() {
     let host = plan.directory().address_of(HOST).expect("it is there");
     let mut introductions = 0;
     while introductions < 3 {
-        let is_in = wire::poll_greeting(game.world_mut()) == Greeting::Done;
+        let is_in = net::poll_greeting(game.world_mut()) == Greeting::Done;
         let Some(message) = next_message(&robot) else { continue };
         let introduction = Introduction::unserialise(&message.data).expect("the match is not played");
         robot.send_to(&datagram(party(HOME_1), HOST, 1, &introduction), host).expect("it is sent");
@@ -236,14 +236,14 @@ fn a_robot_begins_again_with_its_match() {
     let mut robot = Elsewhere::start(&plan, HOME_1);
     greet(&mut game);
     ticks(&mut game, 30);
-    wire::close(game.world_mut());
+    net::close(game.world_mut());
     let mut game = Match::new(&plan);
-    wire::open(game.world_mut(), &plan).expect("the addresses are free again");
+    net::open(game.world_mut(), &plan).expect("the addresses are free again");
     greet(&mut game);
     while !game.is_over() {
         game.tick();
     }
-    wire::finish(game.world_mut());
+    net::finish(game.world_mut());
     let report = robot.end().expect("it belongs to both");
     assert_eq!(report.ending, RobotEnd::MatchOver);
     assert!(report.answered <= game.clock().tick && report.answered > 30, "{report:?}");
@@ -266,7 +266,7 @@ fn who_floods_a_match_with_datagrams_does_not_stop_it() {
     while !game.is_over() {
         game.tick();
     }
-    wire::finish(game.world_mut());
+    net::finish(game.world_mut());
     stops.store(true, Ordering::Relaxed);
     threads.into_iter().for_each(|thread| thread.join().expect("it does not panic"));
     assert!(figures(&game).foreign > 0);
@@ -293,13 +293,13 @@ fn addresses_of_ipv6_carry_a_match_and_its_robots() {
     };
     plan.addresses = Some(addresses.entries().map(on_loopback).collect());
     let mut game = Match::new(&plan);
-    wire::open(game.world_mut(), &plan).expect("this machine has IPv6");
+    net::open(game.world_mut(), &plan).expect("this machine has IPv6");
     let mut robot = Elsewhere::start(&plan, HOME_1);
     greet(&mut game);
     while !game.is_over() {
         game.tick();
     }
-    wire::finish(game.world_mut());
+    net::finish(game.world_mut());
     let report = robot.end().expect("it belongs to the match");
     assert_eq!(report.ending, RobotEnd::MatchOver);
     assert!(

@@ -3,12 +3,12 @@
 
 use std::net::{IpAddr, Ipv4Addr, UdpSocket};
 
+use touchline::comms::tcm::counters::Dropped;
+use touchline::comms::tcm::{MessageBudgets, Tcm};
+use touchline::game::net::WirePlan;
 use touchline::game::{Choice, Match, MatchPlan};
-use touchline::gamecontroller::control::Version;
 use touchline::ids::{RobotId, Team};
-use touchline::tcm::counters::Dropped;
-use touchline::tcm::{MessageBudgets, Tcm};
-use touchline::wire::WirePlan;
+use touchline::world::gamecontroller::control::Version;
 
 use super::announced::next;
 use super::{figures, open};

@@ -7,13 +7,13 @@ use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use serde_json::Value;
+use touchline::comms::tcm::udp::UdpError;
+use touchline::comms::tcm::{Directory, HOST, party};
 use touchline::game::MatchPlan;
+use touchline::game::net::{self, Greeting, WireError, WirePlan};
 use touchline::ids::{RobotId, Team};
-use touchline::motor::SteeringIntent;
-use touchline::referee::Phase;
-use touchline::tcm::udp::UdpError;
-use touchline::tcm::{Directory, HOST, party};
-use touchline::wire::{self, Greeting, WireError, WirePlan};
+use touchline::mind::motor::SteeringIntent;
+use touchline::world::referee::Phase;
 
 use super::{HOME_0, HOME_1, address_of, by_udp, free_directory, greet, open, stranger, talkative};
 
@@ -216,13 +216,13 @@ fn a_match_whose_remote_robot_dies_goes_on_to_its_end_and_the_robot_stands() {
     {
         game.tick();
     }
-    let before = wire::remote_figures(game.world())[0];
+    let before = net::remote_figures(game.world())[0];
     assert!(before.answered > 0, "{before:?}");
     robot.kill();
     while !game.is_over() {
         game.tick();
     }
-    let after = wire::remote_figures(game.world())[0];
+    let after = net::remote_figures(game.world())[0];
     assert_eq!(after.answered, before.answered);
     assert!(after.missed >= before.missed + 30, "{after:?}");
     assert_eq!(after.answered + after.missed, game.clock().tick);
@@ -270,7 +270,7 @@ fn a_robot_of_another_strategy_is_refused_with_one_line_on_either_side() {
     let mut robot = Process::start(&other, &addresses);
     let mut refusal = None;
     while refusal.is_none() {
-        let Greeting::Awaiting(awaited) = wire::poll_greeting(game.world_mut()) else {
+        let Greeting::Awaiting(awaited) = net::poll_greeting(game.world_mut()) else {
             panic!("it is another")
         };
         refusal = awaited[0].refusal.clone();
@@ -300,7 +300,7 @@ fn a_robot_whose_match_is_gone_ends_with_its_report_and_one_line() {
     let mut robot = Process::start(&[&robot[..], &TALKATIVE].concat(), &addresses);
     greet(&mut game);
     (0..5).for_each(|_| game.tick());
-    wire::close(game.world_mut());
+    net::close(game.world_mut());
     let output = robot.end();
     let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
     assert_eq!(report["ending"], "match_gone");
@@ -329,7 +329,7 @@ fn a_match_needs_an_address_of_its_own_for_robots_elsewhere() {
     let (mut game, plan) = open(&plan);
     let without = plan.directory().entries().filter(|(who, _)| *who != HOST).collect();
     let plan = MatchPlan { addresses: Some(without), ..plan };
-    let error = wire::open(game.world_mut(), &plan).expect_err("it has none");
+    let error = net::open(game.world_mut(), &plan).expect_err("it has none");
     assert!(!matches!(error, WireError::Udp(UdpError::Bind { .. })), "{error}");
     assert!(error.to_string().contains("computer 255 has no address"), "{error}");
 }

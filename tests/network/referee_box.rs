@@ -3,21 +3,21 @@
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 
 use bevy::prelude::*;
+use touchline::game::net::WirePlan;
+use touchline::game::requests::{Request, Requests, Shove};
 use touchline::game::{Match, MatchPlan};
-use touchline::gamecontroller::BoxNews;
-use touchline::gamecontroller::announcement::{Sentence, Standing};
-use touchline::gamecontroller::control::{ControlPacket, GamePhase, Penalty, SetPlay, State, Version};
-use touchline::gamecontroller::referee_box::Heard;
-use touchline::gamecontroller::status::{PORT, STATUS_LEN, StatusPacket};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
+use touchline::mind::teamwork::Booking;
+use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
-use touchline::referee::{Decision, Orders, Phase, RobotState, Whistles};
 use touchline::robot::OffPitch;
-use touchline::script::{Request, Requests, Shove};
-use touchline::teamwork::Booking;
-use touchline::wire::WirePlan;
-use touchline::world_model::WorldModel;
+use touchline::world::gamecontroller::BoxNews;
+use touchline::world::gamecontroller::announcement::{Sentence, Standing};
+use touchline::world::gamecontroller::control::{ControlPacket, GamePhase, Penalty, SetPlay, State, Version};
+use touchline::world::gamecontroller::referee_box::Heard;
+use touchline::world::gamecontroller::status::{PORT, STATUS_LEN, StatusPacket};
+use touchline::world::referee::{Decision, Orders, Phase, RobotState, Whistles};
 
 use super::announced::{announced, next};
 use super::{HOME_0, open, plan, stranger, talkative};

@@ -8,7 +8,7 @@ use bevy::math::ops;
 use proptest::prelude::*;
 use touchline::data::{AssetFolder, AssetKind, DataError};
 use touchline::game::{Choice, Match, MatchPlan};
-use touchline::scenario::ScenarioPlan;
+use touchline::lab::scenario::ScenarioPlan;
 
 use super::{SCENARIO, assert_on_pitch};
 use crate::support::assets;

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bevy::prelude::*;
-use touchline::ball::Ball;
 use touchline::data::{AssetFolder, AssetKind, Source};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::{Pose, Twist};
 use touchline::ids::{RobotId, Team};
 use touchline::strategy::Strategy;
+use touchline::world::ball::Ball;
 
 /// The folder of the shipped assets.
 pub fn assets() -> AssetFolder {

@@ -2,11 +2,11 @@
 
 use super::{Resolver, Result};
 use crate::data::{Bound, Field};
+use crate::mind::teamwork::policy::Cast;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
     BallBooking, CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,
 };
-use crate::teamwork::policy::Cast;
 
 impl Resolver<'_> {
     pub(super) fn teamwork(&self, at: &Field) -> Result<Teamwork> {

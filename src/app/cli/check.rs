@@ -1,0 +1,182 @@
+//! `touchline check`: reads assets as a match would and says what is wrong with them, and plays scenarios.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::ending::{CommandError, Ending};
+use super::interrupt::Interrupt;
+use super::kinds;
+use super::whole_file::{check_writable, write_whole};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
+use crate::lab::scenario::{Report, ScenarioPlan, junit};
+
+#[derive(Args, Debug, Default)]
+pub(super) struct Check {
+    /// Files of any kind; everything in the asset folder, if none is given.
+    files: Vec<PathBuf>,
+    /// Also play each scenario without the mechanism that it depends on: then it must fail.
+    #[arg(long)]
+    ablate: bool,
+    /// Write the scenarios' results to a file, as JUnit XML.
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+}
+
+/// What was found so far, printed as it is found.
+struct Findings<'a, W> {
+    out: &'a mut W,
+    interrupt: Interrupt,
+    /// How many files of each kind there were.
+    files: BTreeMap<AssetKind, usize>,
+    faults: usize,
+    /// The scenarios' names, and whose they are.
+    scenarios: BTreeMap<String, PathBuf>,
+    reports: Vec<Report>,
+}
+
+impl Check {
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        if let Some(path) = &self.junit {
+            check_writable(path).map_err(CommandError::file(path))?;
+        }
+        let mut findings = Findings {
+            out,
+            interrupt: Interrupt::listen(),
+            files: BTreeMap::new(),
+            faults: 0,
+            scenarios: BTreeMap::new(),
+            reports: Vec::new(),
+        };
+        if self.files.is_empty() {
+            self.check_all(assets, &mut findings)?;
+        }
+        for file in &self.files {
+            match kinds::kind_of(file) {
+                Ok(kind) => self.check(assets, kind, file, &mut findings)?,
+                Err(error) => findings.tell(file, Err(error))?,
+            }
+        }
+        if self.ablate {
+            findings.expect_ablations()?;
+        }
+        if let Some(path) = &self.junit {
+            let xml = junit(&findings.reports).map_err(io::Error::other);
+            xml.and_then(|xml| write_whole(path, xml.as_bytes())).map_err(CommandError::file(path))?;
+        }
+        Ok(findings.conclude()?)
+    }
+
+    /// Checks what is in each kind's folder as that kind, which is what it is taken for in a match.
+    fn check_all(
+        &self,
+        assets: &AssetFolder,
+        findings: &mut Findings<impl Write>,
+    ) -> Result<(), CommandError> {
+        for kind in AssetKind::ALL {
+            for path in assets.files(kind)? {
+                self.check(assets, kind, &path, findings)?;
+            }
+        }
+        if findings.files.is_empty() {
+            return Err(DataError::new(assets.root(), "there are no assets to check").into());
+        }
+        Ok(())
+    }
+
+    fn check(
+        &self,
+        assets: &AssetFolder,
+        kind: AssetKind,
+        path: &Path,
+        findings: &mut Findings<impl Write>,
+    ) -> io::Result<()> {
+        *findings.files.entry(kind).or_default() += 1;
+        match kinds::read(assets, kind, path) {
+            Ok(None) => findings.tell(path, Ok(())),
+            Ok(Some(plan)) => match findings.know(&plan) {
+                Ok(()) => self.play(&plan, findings),
+                fault => findings.tell(path, fault),
+            },
+            Err(error) => findings.tell(path, Err(error)),
+        }
+    }
+
+    fn play(&self, plan: &ScenarioPlan, findings: &mut Findings<impl Write>) -> io::Result<()> {
+        let dependency = plan.scenario.depends_on.filter(|_| self.ablate);
+        for without in [None].into_iter().chain(dependency.map(Some)) {
+            if !findings.interrupt.is_asked() {
+                let report = plan.run_until(without, &|| findings.interrupt.is_asked());
+                findings.report(report)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<W: Write> Findings<'_, W> {
+    fn tell(&mut self, what: &Path, result: Result<(), DataError>) -> io::Result<()> {
+        match result {
+            Ok(()) => writeln!(self.out, "ok    {}", what.display()),
+            Err(error) => {
+                self.faults += 1;
+                writeln!(self.out, "fault {error}")
+            }
+        }
+    }
+
+    /// Remembers a scenario's name, by which people tell the results.
+    fn know(&mut self, plan: &ScenarioPlan) -> Result<(), DataError> {
+        let path = self.scenarios.entry(plan.scenario.name.clone()).or_insert_with(|| plan.path.clone());
+        if *path == plan.path {
+            return Ok(());
+        }
+        let message = format!("is also the name of {}", path.display());
+        Err(Source::read(&plan.path)?.error_at(&Field::root().key("name"), message))
+    }
+
+    /// How many files of each kind were read.
+    fn counts(&self) -> String {
+        let counts = self.files.iter().map(|(kind, count)| match count {
+            1 => format!("1 {kind}"),
+            _ => format!("{count} {}", kind.plural()),
+        });
+        let counts: Vec<String> = counts.collect();
+        if counts.is_empty() { String::new() } else { format!("{}: ", counts.join(", ")) }
+    }
+
+    fn report(&mut self, report: Report) -> io::Result<()> {
+        writeln!(self.out, "{report}")?;
+        self.reports.push(report);
+        Ok(())
+    }
+
+    fn expect_ablations(&mut self) -> io::Result<()> {
+        if self.interrupt.is_asked() || self.reports.iter().any(|report| report.without.is_some()) {
+            return Ok(());
+        }
+        let message = "has no effect: no scenario among the files says what it depends on";
+        self.tell(Path::new("--ablate"), Err(DataError::new("--ablate", message)))
+    }
+
+    fn conclude(self) -> io::Result<Ending> {
+        let played = self.reports.iter().filter(|report| !report.interrupted);
+        let failed = played.clone().filter(|report| !report.passed()).count();
+        let (played, faults) = (played.count(), self.faults);
+        let (words, ending) = if self.interrupt.is_asked() {
+            let words =
+                format!("interrupted: {failed} of {played} scenarios failed, {faults} with faults so far");
+            (words, Ending::Interrupted)
+        } else if faults > 0 {
+            (format!("{faults} with faults"), Ending::BadInput)
+        } else if failed > 0 {
+            (format!("{failed} of {played} scenarios failed"), Ending::Failed)
+        } else {
+            ("all sound".into(), Ending::Done)
+        };
+        writeln!(self.out, "{}{words}", self.counts())?;
+        Ok(ending)
+    }
+}

@@ -1,0 +1,96 @@
+//! The command line. One file a subcommand; how commands end is the business of `ending` alone.
+
+mod check;
+mod ending;
+mod interrupt;
+mod kinds;
+mod options;
+mod play;
+mod referee_box;
+mod robot;
+mod run;
+mod whole_file;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use serde::Serialize;
+
+use crate::data::AssetFolder;
+use ending::{CommandError, EXIT_CODES, Ending};
+
+/// Robot soccer between teams of behaviour-based robots. Without a command it opens the window.
+#[derive(Debug, Parser)]
+#[command(name = "touchline", version, after_help = EXIT_CODES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// The folder with strategies, pitches, robots and matches.
+    #[arg(long, global = true, value_name = "FOLDER")]
+    assets: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Open the window and play; without a display, play headless.
+    #[command(after_help = EXIT_CODES)]
+    Play(play::Play),
+    /// Play a match headless, as fast as it goes, and print the result.
+    #[command(after_help = EXIT_CODES)]
+    Run(run::Run),
+    /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
+    #[command(after_help = EXIT_CODES)]
+    Robot(robot::Robot),
+    /// Read asset files and say what is wrong with them.
+    #[command(after_help = EXIT_CODES)]
+    Check(check::Check),
+}
+
+/// Runs the program with the arguments of this process.
+pub fn main() -> ExitCode {
+    match Cli::try_parse() {
+        Ok(cli) => cli.perform().unwrap_or_else(|error| error.tell()),
+        Err(usage) => ending::tell_usage(&usage),
+    }
+    .into()
+}
+
+impl Cli {
+    fn perform(self) -> Result<Ending, CommandError> {
+        // The window has its own log.
+        if !matches!(self.command, None | Some(Command::Play(_))) {
+            crate::app::logging::log_to_stderr();
+        }
+        let assets = AssetFolder::find(self.assets.as_deref())?;
+        let mut out = io::stdout();
+        let ending = match self.command {
+            None => play::Play::default().run(&assets, &mut out),
+            Some(Command::Play(play)) => play.run(&assets, &mut out),
+            Some(Command::Run(run)) => run.run(&assets, &mut out),
+            Some(Command::Robot(robot)) => robot.run(&assets, &mut out),
+            Some(Command::Check(check)) => check.run(&assets, &mut out),
+        }?;
+        out.flush()?;
+        Ok(ending)
+    }
+}
+
+/// Prints a result for machines.
+fn print_json(result: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, result)?;
+    writeln!(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_options_of_all_commands_agree_with_each_other() {
+        Cli::command().debug_assert();
+    }
+}

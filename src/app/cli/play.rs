@@ -1,0 +1,145 @@
+//! `touchline play`, and `touchline` alone: a match or a scenario in the window, or headless where there is none.
+
+use std::io::Write;
+use std::path::Path;
+
+use clap::Args;
+
+use super::ending::{CommandError, Ending, tell};
+use super::interrupt::Interrupt;
+use super::options::{HostOptions, MatchOptions, SeedOption};
+use crate::data::{AssetFolder, AssetKind, DataError};
+use crate::game::{Choice, MatchPlan};
+use crate::ids::RobotId;
+use crate::lab::scenario::ScenarioPlan;
+use crate::rng::DEFAULT_SEED;
+
+#[derive(Args, Debug, Default)]
+pub(super) struct Play {
+    /// A scenario: a name among the assets or a path; played with its first seed unless another is given, and with
+    /// the ball at the first of its places.
+    #[arg(conflicts_with_all = ["MatchOptions", "HostOptions", "pilot"])]
+    scenario: Option<String>,
+    #[command(flatten)]
+    options: MatchOptions,
+    #[command(flatten)]
+    host: HostOptions,
+    #[command(flatten)]
+    seed: SeedOption,
+    /// The robot that you drive, such as `away:3`.
+    #[arg(long, value_name = "ROBOT")]
+    pilot: Option<RobotId>,
+}
+
+impl Play {
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        if let Some(name) = &self.scenario {
+            return self.run_scenario(assets, &assets.file(AssetKind::Scenario, name), out);
+        }
+        let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
+        let plan = MatchPlan::read(assets, &choice)?;
+        let Some(missing) = missing_for_a_window() else {
+            return Ok(open_window(assets, self.chooses(&choice).then_some(Wanted::Match(choice))));
+        };
+        if self.pilot.is_some() {
+            return Err(
+                DataError::new("--pilot", format!("nobody can drive without a window: {missing}")).into()
+            );
+        }
+        let interrupt = Interrupt::listen();
+        tell(format_args!("{missing}, so the match is played headless"));
+        super::run::play_headless(&plan, false, self.options.patience(), &interrupt, out)
+    }
+
+    /// Whether anything was chosen, rather than left to the menu.
+    fn chooses(&self, choice: &Choice) -> bool {
+        let untouched = Choice { seed: DEFAULT_SEED, ..Choice::default() };
+        self.seed.seed.is_some() || *choice != untouched
+    }
+
+    fn run_scenario(
+        &self,
+        assets: &AssetFolder,
+        path: &Path,
+        out: &mut impl Write,
+    ) -> Result<Ending, CommandError> {
+        let mut plan = ScenarioPlan::read(assets, path)?;
+        let seed = self.seed.seed;
+        let Some(missing) = missing_for_a_window() else {
+            return Ok(open_window(assets, Some(Wanted::Scenario { path: path.to_owned(), seed })));
+        };
+        let interrupt = Interrupt::listen();
+        tell(format_args!("{missing}, so the scenario is played headless"));
+        let seed = seed.or_else(|| plan.scenario.seeds.first().copied());
+        plan.scenario.seeds = seed.into_iter().collect();
+        plan.scenario.places.truncate(1);
+        plan.scenario.may_fail = 0;
+        let report = plan.run_until(None, &|| interrupt.is_asked());
+        writeln!(out, "{report}")?;
+        Ok(match report.passed() {
+            _ if report.interrupted => Ending::Interrupted,
+            true => Ending::Done,
+            false => Ending::Failed,
+        })
+    }
+}
+
+#[cfg(feature = "window")]
+use crate::app::view::{Wanted, missing_for_a_window};
+
+#[cfg(feature = "window")]
+fn open_window(assets: &AssetFolder, wanted: Option<Wanted>) -> Ending {
+    use crate::app::view::WindowEnd;
+    match crate::app::view::open_window(assets, wanted) {
+        WindowEnd::Closed => Ending::Done,
+        WindowEnd::ScenarioFailed => Ending::Failed,
+        WindowEnd::Interrupted => Ending::Interrupted,
+        WindowEnd::Failed => Ending::WindowFailed,
+    }
+}
+
+/// What would be shown.
+#[cfg(not(feature = "window"))]
+#[expect(dead_code, reason = "a build without a window shows nothing")]
+enum Wanted {
+    Match(Choice),
+    Scenario { path: std::path::PathBuf, seed: Option<u64> },
+}
+
+#[cfg(not(feature = "window"))]
+fn missing_for_a_window() -> Option<&'static str> {
+    Some("this build has no window")
+}
+
+#[cfg(not(feature = "window"))]
+fn open_window(_: &AssetFolder, _: Option<Wanted>) -> Ending {
+    Ending::WindowFailed
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Program {
+        #[command(flatten)]
+        play: Play,
+    }
+
+    fn chooses(arguments: &[&str]) -> bool {
+        let program = Program::try_parse_from([&["play"], arguments].concat()).expect("good arguments");
+        let Play { options, host, seed, pilot, .. } = &program.play;
+        let choice = Choice { pilot: *pilot, ..host.choice(options, seed).expect("a sound choice") };
+        program.play.chooses(&choice)
+    }
+
+    #[test]
+    fn a_command_line_without_choice_leads_to_the_menu_and_any_choice_into_a_match() {
+        assert!(!chooses(&[]));
+        for choice in [["--seed", "1"], ["--seed", "7"], ["--home", "ball_chasers"], ["--pilot", "away:3"]] {
+            assert!(chooses(&choice), "{choice:?}");
+        }
+    }
+}

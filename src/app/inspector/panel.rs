@@ -1,0 +1,130 @@
+//! The panel at the right edge: the selected robot, section by section. Its edge can be dragged.
+//! Without a selection there is only a strip, and the pitch has the room.
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+
+use super::sections::{self, Desk};
+use super::subject::{Looked, Scene};
+use super::weights::Weights;
+use crate::app::view::actions::Action;
+use crate::app::view::keys::Keyboard;
+use crate::app::view::layout::{Edge, FreeArea, PanelSystems, SizedPanel};
+use crate::app::view::levers::Levers;
+use crate::app::view::opened::{Inspector, Remembered};
+use crate::app::view::session::Session;
+use crate::app::view::settings::PanelSizes;
+use crate::app::view::state::{Piloted, Screen};
+use crate::game::requests::Requests;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(EguiPrimaryContextPass, dock.in_set(PanelSystems::Right).run_if(in_state(Screen::Match)));
+}
+
+/// Widths of the panel in points: least and most; and of the strip that is left when it is closed.
+const WIDTH: (f32, f32) = (384.0, 620.0);
+const STRIP: f32 = 26.0;
+
+const MARGIN: egui::Margin = egui::Margin { left: 10, right: 6, top: 7, bottom: 4 };
+
+/// What the panel changes.
+#[derive(SystemParam)]
+struct Changes<'w> {
+    inspector: ResMut<'w, Inspector>,
+    requests: ResMut<'w, Requests>,
+    weights: ResMut<'w, Weights>,
+    piloted: ResMut<'w, Piloted>,
+    levers: ResMut<'w, Levers>,
+    sizes: ResMut<'w, PanelSizes>,
+    remembered: ResMut<'w, Remembered>,
+    keyboard: Res<'w, Keyboard>,
+    session: Res<'w, Session>,
+}
+
+fn dock(
+    mut contexts: EguiContexts,
+    mut area: ResMut<FreeArea>,
+    scene: Scene,
+    mut changes: Changes,
+) -> Result {
+    let ctx = contexts.ctx_mut()?;
+    let robot = scene.looked();
+    let mut size = changes.sizes.inspector;
+    let shown = robot.filter(|_| changes.inspector.open).and_then(|robot| {
+        let panel = SizedPanel {
+            id: "inspector",
+            edge: Edge::Right,
+            least: WIDTH.0,
+            most: WIDTH.1,
+            frame: egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(MARGIN),
+        };
+        area.dock_sized(ctx, panel, &mut size, |ui| fill(ui, &robot, &mut changes))
+    });
+    if shown.is_some() {
+        changes.sizes.inspector = size;
+    } else if area.0.width() > 2.0 * STRIP {
+        let strip = egui::Panel::right("inspector_strip").resizable(false).exact_size(STRIP);
+        area.dock(ctx, "inspector_strip", strip, |ui| {
+            let open = ui.add(egui::Button::new("⏴").frame(false));
+            let hint = "The inspector: click a robot, or press Tab, to look inside it";
+            if open.on_hover_text(changes.keyboard.tip_that_says(hint, Action::Inspector)).clicked() {
+                changes.inspector.open = true;
+            }
+        });
+    }
+    Ok(())
+}
+
+fn fill(ui: &mut egui::Ui, robot: &Looked, changes: &mut Changes) {
+    set_close(ui);
+    let mut desk = Desk {
+        requests: &mut changes.requests,
+        weights: &mut changes.weights,
+        piloted: &mut changes.piloted,
+        levers: &mut changes.levers,
+        file: changes.session.plan.as_ref().map(|plan| plan.team(robot.id.team)),
+        open: &mut changes.inspector.open,
+        playing: &mut changes.remembered.playing,
+        keyboard: &changes.keyboard,
+    };
+    // In a small window it is no wider than there is room, and scrolls.
+    egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+        ui.set_min_width(WIDTH.0 - MARGIN.sum().x);
+        sections::draw_head(ui, robot, &mut desk);
+        ui.separator();
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| sections::draw(ui, robot, &mut desk));
+    });
+}
+
+/// Much is to be seen at once here, so type and rows are as small as they may be anywhere.
+pub(super) fn set_close(ui: &mut egui::Ui) {
+    use egui::TextStyle::{Body, Button};
+    let style = ui.style_mut();
+    for name in [Body, Button] {
+        style.text_styles.insert(name, egui::FontId::proportional(13.0));
+    }
+    style.spacing.item_spacing.y = 2.0;
+    style.spacing.button_padding = egui::vec2(7.0, 1.0);
+    style.spacing.interact_size.y = 18.0;
+    // Beside the figures, not upon them.
+    style.spacing.scroll.floating_allocated_width = 8.0;
+}
+
+/// Room for the button that closes a panel, in points.
+const CLOSE: f32 = 20.0;
+
+/// Shows contents in as many rows as they take, with a button at the right that closes the panel; whether that was clicked.
+pub(super) fn with_close_button(ui: &mut egui::Ui, tip: &str, contents: impl FnOnce(&mut egui::Ui)) -> bool {
+    let right = ui.max_rect().right();
+    let rows = ui.scope(|ui| {
+        ui.set_max_width((ui.available_width() - 1.5 * CLOSE).max(1.0));
+        ui.horizontal_wrapped(contents);
+    });
+    let corner = egui::pos2(right - CLOSE, rows.response.rect.top());
+    let place = egui::UiBuilder::new()
+        .max_rect(egui::Rect::from_min_size(corner, egui::Vec2::splat(CLOSE)))
+        .id_salt("close");
+    let close = ui.new_child(place).add(egui::Button::new("⏷").frame(false));
+    close.on_hover_text(tip).clicked()
+}

@@ -1,0 +1,201 @@
+//! The page of the radio's panel with the ball bookings: a lane for each robot, and on it, in the colour of the booker, whom the
+//! robot believed to have booked the ball. A full bar is the booker itself on its way to the ball.
+
+use bevy_egui::egui::{self, Align2, Pos2, Rect, RichText, Stroke, pos2, vec2};
+
+use super::belief_history::Span;
+use super::chart::{LANE, NAMES, TIMES, paint_times, show_spans};
+use super::layout::Axes;
+use super::words::moment;
+use super::{Heard, RadioView};
+use crate::app::inspector::{figures, tints};
+use crate::app::view::colours;
+use crate::clock::Clock;
+use crate::game::record::{BookingFigures, Span as Stretch};
+use crate::ids::{RobotId, Team};
+use crate::robot::Condition;
+
+/// Heights of a bar: of a robot that goes to the ball itself, and of one that leaves it to another, in points.
+const BARS: (f32, f32) = (18.0, 9.0);
+/// A bar that is wider than this bears the booker's number.
+const NUMBERED: f32 = 13.0;
+
+pub fn show(
+    ui: &mut egui::Ui,
+    team: Team,
+    robots: &[(RobotId, Condition)],
+    heard: &Heard,
+    view: &mut RadioView,
+) {
+    if !heard.books(team) {
+        ui.add_space(8.0);
+        ui.weak(format!("The strategy of {team} books no balls."));
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        show_spans(ui, view);
+        ui.separator();
+        show_key(ui, robots);
+        ui.separator();
+        show_figures(ui, &heard.record.bookings[team.index()]);
+    });
+    let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
+    let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
+    let chart = Rect::from_min_max(rect.min + vec2(NAMES, 0.0), rect.max - vec2(4.0, TIMES));
+    let axes = Axes {
+        rect: chart,
+        now: heard.clock.tick as f64 - 1.0 + f64::from(heard.pace.between),
+        span: f64::from(view.span.seconds()) / f64::from(heard.clock.dt),
+        lanes: robots.len(),
+    };
+    let painter = ui.painter_at(chart);
+    painter.rect_filled(chart, 3.0, tints::egui(colours::SUNKEN));
+    paint_times(ui.painter(), &axes, heard.clock.dt);
+    for (lane, (robot, condition)) in robots.iter().enumerate() {
+        let at = pos2(rect.left() + 2.0, axes.y(lane));
+        let colour = tints::egui(colours::team_text(robot.team));
+        let colour = if condition.crashed { colour.gamma_multiply(0.5) } else { colour };
+        let font = egui::FontId::proportional(13.0);
+        ui.painter().text(at, Align2::LEFT_CENTER, format!("{robot} believes"), font, colour);
+        painter.hline(chart.x_range(), axes.y(lane), (1.0, tints::egui(colours::QUIET).gamma_multiply(0.3)));
+    }
+    let told = paint_beliefs(&painter, &axes, robots, heard, response.hover_pos());
+    if let Some(told) = told {
+        response.on_hover_text_at_pointer(told);
+    }
+}
+
+/// The bars. What the one under the pointer tells.
+fn paint_beliefs(
+    painter: &egui::Painter,
+    axes: &Axes,
+    robots: &[(RobotId, Condition)],
+    heard: &Heard,
+    pointer: Option<Pos2>,
+) -> Option<String> {
+    let mut told = None;
+    for span in heard.beliefs.spans() {
+        let Some(lane) = robots.iter().position(|(robot, _)| *robot == span.robot) else { continue };
+        let Some(bar) = bar_of(span, axes, lane) else { continue };
+        let colour = tints::egui(tints::number(span.belief.booker));
+        painter.rect_filled(bar, 2.0, colour);
+        let seen = bar.intersect(axes.rect);
+        if seen.width() > NUMBERED && span.belief.goes {
+            let font = egui::FontId::proportional(13.0);
+            let ink = tints::egui(colours::ROBOT);
+            painter.text(seen.center(), Align2::CENTER_CENTER, span.belief.booker, font, ink);
+        }
+        if pointer.is_some_and(|pointer| seen.expand2(vec2(1.0, 3.0)).contains(pointer)) {
+            painter.rect_stroke(
+                bar,
+                2.0,
+                Stroke::new(1.5, tints::egui(colours::PILOT)),
+                egui::StrokeKind::Outside,
+            );
+            told = Some(story(span, &heard.clock));
+        }
+    }
+    told
+}
+
+/// Where the bar of a span is; none if it is not within the time that is shown.
+fn bar_of(span: &Span, axes: &Axes, lane: usize) -> Option<Rect> {
+    let until = span.until.map_or(axes.now, |until| until as f64);
+    if until < axes.start() {
+        return None;
+    }
+    let from = axes.x(span.from as f64);
+    let height = if span.belief.goes { BARS.0 } else { BARS.1 };
+    let half = height.min(axes.lane_height() - 4.0) / 2.0;
+    let y = axes.y(lane);
+    Some(Rect::from_x_y_ranges(from..=axes.x(until).max(from + 1.0), y - half..=y + half))
+}
+
+/// All that there is to tell of a span.
+fn story(span: &Span, clock: &Clock) -> String {
+    let Span { robot, belief, from, until } = *span;
+    let head = match (belief.goes, belief.booker == robot.number) {
+        (true, _) => format!("{robot} has booked the ball and goes to it"),
+        (false, true) => format!("{robot} has booked the ball but does not see it"),
+        (false, false) => format!("{robot} believes that {} has booked the ball", belief.booker),
+    };
+    let lasted = match until {
+        Some(until) => format!("for {}", figures::seconds(figures::span(from, until, clock.dt))),
+        None => "and still so".into(),
+    };
+    format!("{head}\nfrom {}, {lasted}", moment(from, clock))
+}
+
+/// The colour of each booker.
+fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Condition)]) {
+    ui.weak("booker");
+    for (robot, _) in robots {
+        let (rect, response) = ui.allocate_exact_size(vec2(18.0, 16.0), egui::Sense::hover());
+        ui.painter().rect_filled(rect, 2.0, tints::egui(tints::number(robot.number)));
+        let font = egui::FontId::proportional(13.0);
+        let ink = tints::egui(colours::ROBOT);
+        ui.painter().text(rect.center(), Align2::CENTER_CENTER, robot.number, font, ink);
+        response.on_hover_text(format!(
+            "{robot} has booked the ball. Broad: it goes there; narrow: who leaves it to it"
+        ));
+    }
+}
+
+/// How well the booking has done so far.
+fn show_figures(ui: &mut egui::Ui, booked: &BookingFigures) {
+    let stretch = |ui: &mut egui::Ui, name: &str, stretch: Stretch, tip: &str| {
+        ui.weak(name);
+        let told = figures::seconds(stretch.total as f32);
+        let longest = figures::seconds(stretch.longest as f32);
+        ui.label(RichText::new(told)).on_hover_text(format!("{tip}. At most {longest} at a stretch"));
+    };
+    stretch(
+        ui,
+        "nobody goes",
+        booked.nobody_goes,
+        "Some robot knew where the ball was, and none went for it",
+    );
+    stretch(ui, "several go", booked.several_go, "More than one robot went for the ball");
+    stretch(
+        ui,
+        "a farther one",
+        booked.farther_goes,
+        "A robot was nearer than the one that went, by more than the threshold",
+    );
+    ui.weak("takeovers");
+    let tip = format!(
+        "How often another robot began to go for the ball; {} times back to the one before within three seconds",
+        booked.alternations
+    );
+    ui.label(booked.takeovers.to_string()).on_hover_text(tip);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::belief_history::Belief;
+    use super::super::samples::home;
+    use super::*;
+
+    fn span(booker: u8, goes: bool, until: Option<u64>) -> Span {
+        Span { robot: home(2), belief: Belief { booker, goes }, from: 60, until }
+    }
+
+    #[test]
+    fn a_bar_lies_on_its_lane_between_its_times_and_one_that_is_over_is_not_shown() {
+        let rect = Rect::from_min_size(pos2(0.0, 0.0), vec2(100.0, 80.0));
+        let axes = Axes { rect, now: 110.0, span: 100.0, lanes: 2 };
+        let bar = bar_of(&span(1, true, Some(90)), &axes, 1).unwrap();
+        assert_eq!((bar.x_range(), bar.center().y), (egui::Rangef::new(50.0, 80.0), 60.0));
+        assert_eq!(bar_of(&span(1, false, None), &axes, 0).unwrap().right(), 100.0);
+        assert_eq!(bar_of(&span(1, false, Some(90)), &Axes { now: 200.0, ..axes }, 0), None);
+    }
+
+    #[test]
+    fn a_span_tells_who_believed_what_and_how_long() {
+        let clock = Clock::new(60.0);
+        let told = "home 2 believes that 1 has booked the ball\nfrom 1.00 s, for 0.5 s";
+        assert_eq!(story(&span(1, false, Some(90)), &clock), told);
+        assert!(story(&span(2, true, None), &clock).ends_with("goes to it\nfrom 1.00 s, and still so"));
+        assert!(story(&span(2, false, None), &clock).contains("does not see it"));
+    }
+}

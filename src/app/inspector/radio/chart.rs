@@ -1,0 +1,268 @@
+//! The page of the radio's panel with the message sequence chart: a lane for each robot, an arrow for each message, an amber
+//! bar where a robot is locked.
+
+use bevy_egui::egui::{self, Align2, Color32, Pos2, Rect, RichText, Stroke, pos2, vec2};
+
+use super::filter::is_of_a_swap;
+use super::layout::{Arrow, Axes, End, Labels};
+use super::locks::Hold;
+use super::words;
+use super::{Heard, RadioView, Span};
+use crate::app::inspector::tints;
+use crate::app::view::colours;
+use crate::comms::messages::MessageKind;
+use crate::comms::radio::Transmission;
+use crate::ids::RobotId;
+use crate::robot::Condition;
+
+/// Width of the robots' names before the lanes, and height of the times below them, in points.
+pub const NAMES: f32 = 106.0;
+pub const TIMES: f32 = 18.0;
+/// The least height of a lane, in points.
+pub const LANE: f32 = 20.0;
+/// A message may have been sent so long before the time that is shown and arrive within it, s.
+const LONGEST_WAY: f32 = 4.0;
+/// The pointer means an arrow that is no farther away than this, in points.
+const NEAR: f32 = 5.0;
+/// More arrows than this are drawn without tips and labels; than the first, with labels of role swaps only.
+const CROWDED: usize = 150;
+const MANY: usize = 700;
+const TEXT: f32 = 13.0;
+
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, view: &mut RadioView) {
+    show_filters(ui, view);
+    let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
+    let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
+    let chart = Rect::from_min_max(rect.min + vec2(NAMES, 0.0), rect.max - vec2(4.0, TIMES));
+    let lanes: Vec<RobotId> = robots.iter().map(|(robot, _)| *robot).collect();
+    let axes = Axes {
+        rect: chart,
+        now: heard.clock.tick as f64 - 1.0 + f64::from(heard.pace.between),
+        span: f64::from(view.span.seconds()) / f64::from(heard.clock.dt),
+        lanes: lanes.len(),
+    };
+    show_names(ui, rect, &axes, robots, view);
+    let painter = ui.painter_at(chart);
+    painter.rect_filled(chart, 3.0, tints::egui(colours::SUNKEN));
+    paint_times(ui.painter(), &axes, heard.clock.dt);
+    for (lane, robot) in lanes.iter().enumerate() {
+        let shown = view.filter.shows(*robot);
+        let colour = tints::egui(colours::QUIET).gamma_multiply(if shown { 0.6 } else { 0.2 });
+        painter.hline(chart.x_range(), axes.y(lane), (1.0, colour));
+    }
+    let told_of_lock = paint_locks(&painter, &axes, &lanes, heard, response.hover_pos());
+    let told = paint_messages(&painter, &axes, &lanes, heard, view, response.hover_pos());
+    if let Some(told) = told.or(told_of_lock) {
+        response.on_hover_text_at_pointer(told);
+    }
+}
+
+/// The time that is shown, and the kinds of messages.
+fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
+    ui.horizontal_wrapped(|ui| {
+        show_spans(ui, view);
+        ui.separator();
+        for kind in MessageKind::ALL {
+            ui.checkbox(view.filter.kind(kind), kind.to_string())
+                .on_hover_text("Whether these messages are shown, here and on the pitch");
+        }
+        ui.separator();
+        show_key(ui);
+    });
+}
+
+/// The time that the charts show.
+pub fn show_spans(ui: &mut egui::Ui, view: &mut RadioView) {
+    ui.weak("Last");
+    for span in Span::ALL {
+        let tip = "The time from the left edge to the right one";
+        ui.selectable_value(&mut view.span, span, format!("{} s", span.seconds())).on_hover_text(tip);
+    }
+}
+
+/// How lost and late messages and locks look.
+fn show_key(ui: &mut egui::Ui) {
+    let mut sample = |words: &str, paint: &dyn Fn(&egui::Painter, Rect)| {
+        let (rect, _) = ui.allocate_exact_size(vec2(20.0, 14.0), egui::Sense::hover());
+        paint(ui.painter(), rect);
+        ui.weak(words);
+    };
+    let late = Stroke::new(1.5, tints::egui(colours::TEXT));
+    sample("lost", &|painter, rect| cross(painter, rect.center(), tints::egui(colours::PENALTY)));
+    sample("late", &|painter, rect| {
+        let ends = [rect.left_center(), rect.right_center()];
+        painter.extend(egui::Shape::dashed_line(&ends, late, 4.0, 3.0));
+    });
+    sample("locked", &|painter, rect| {
+        painter.rect_filled(rect.shrink2(vec2(0.0, 3.5)), 2.0, tints::egui(colours::LOCK));
+    });
+}
+
+fn show_names(
+    ui: &mut egui::Ui,
+    rect: Rect,
+    axes: &Axes,
+    robots: &[(RobotId, Condition)],
+    view: &mut RadioView,
+) {
+    for (lane, (robot, condition)) in robots.iter().enumerate() {
+        let place = Rect::from_center_size(pos2(rect.left() + NAMES / 2.0, axes.y(lane)), vec2(NAMES, 20.0));
+        let mut shown = view.filter.shows(*robot);
+        let mut name = RichText::new(robot.to_string()).color(tints::egui(colours::team_text(robot.team)));
+        if condition.crashed {
+            name = name.strikethrough();
+        }
+        let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(robot.to_string()));
+        let tip = "Whether messages from and to this robot are shown, here and on the pitch";
+        if inner.checkbox(&mut shown, name).on_hover_text(tip).changed() {
+            view.filter.show(*robot, shown);
+        }
+    }
+}
+
+/// Writes the times below the lanes, with a faint line through them at each.
+pub fn paint_times(painter: &egui::Painter, axes: &Axes, dt: f32) {
+    let quiet = tints::egui(colours::QUIET);
+    let (marks, _) = axes.marks(dt);
+    for mark in marks {
+        let x = axes.x(mark as f64);
+        painter.vline(x, axes.rect.y_range(), (1.0, quiet.gamma_multiply(0.18)));
+        let seconds = (mark as f64 * f64::from(dt)).round();
+        let text = format!("{seconds} s");
+        let at = pos2(x, axes.rect.bottom() + 2.0);
+        let half = 18.0;
+        if x - half > axes.rect.left() && x + half < axes.rect.right() + 4.0 {
+            painter.text(at, Align2::CENTER_TOP, text, egui::FontId::proportional(TEXT), quiet);
+        }
+    }
+}
+
+/// Bars on the lanes: full where a robot is locked, an outline where it attempts a swap. What the one under the pointer
+/// tells.
+fn paint_locks(
+    painter: &egui::Painter,
+    axes: &Axes,
+    lanes: &[RobotId],
+    heard: &Heard,
+    pointer: Option<Pos2>,
+) -> Option<String> {
+    let amber = tints::egui(colours::LOCK);
+    let mut told = None;
+    for span in heard.locks.spans() {
+        let Some(lane) = lanes.iter().position(|robot| *robot == span.robot) else { continue };
+        let (from, until) = (axes.x(span.from as f64), span.until.map_or(axes.now, |until| until as f64));
+        let until = axes.x(until).max(from + 2.0);
+        if until < axes.rect.left() {
+            continue;
+        }
+        let y = axes.y(lane);
+        let bar = Rect::from_x_y_ranges(from..=until, y - 3.5..=y + 3.5);
+        match span.hold {
+            Hold::Locked { .. } => painter.rect_filled(bar, 1.5, amber),
+            Hold::Attempt { .. } => painter.rect_stroke(bar, 1.5, (1.5, amber), egui::StrokeKind::Inside),
+        };
+        if pointer.is_some_and(|pointer| bar.expand(2.0).contains(pointer)) {
+            told = Some(words::story_of(span, &heard.clock));
+        }
+    }
+    told
+}
+
+/// What the message under the pointer tells.
+fn paint_messages(
+    painter: &egui::Painter,
+    axes: &Axes,
+    lanes: &[RobotId],
+    heard: &Heard,
+    view: &RadioView,
+    pointer: Option<Pos2>,
+) -> Option<String> {
+    let first = axes.start() - f64::from(LONGEST_WAY / heard.clock.dt);
+    let recent = heard.log.entries().rev().take_while(|message| message.sent as f64 >= first);
+    let shown = recent.filter(|message| view.filter.passes(message));
+    let arrows: Vec<(&Transmission, Arrow)> =
+        shown.filter_map(|message| Some((message, axes.arrow(message, lanes)?))).collect();
+    let pointed = pointer.and_then(|pointer| {
+        let distances = arrows.iter().map(|(message, arrow)| (arrow.distance(pointer), *message, arrow));
+        distances.filter(|(distance, ..)| *distance < NEAR).min_by(|a, b| a.0.total_cmp(&b.0))
+    });
+    let many = arrows.len() > MANY;
+    for (message, arrow) in &arrows {
+        paint_arrow(painter, message, arrow, many);
+    }
+    if !many {
+        paint_labels(painter, axes, &arrows);
+    }
+    let (_, message, arrow) = pointed?;
+    painter.line_segment([arrow.from, arrow.to], (3.0, tints::egui(colours::PILOT)));
+    Some(words::story(message, &heard.clock))
+}
+
+fn colour(message: &Transmission, end: End) -> Color32 {
+    match end {
+        End::Lost(_) => tints::egui(colours::LOST),
+        _ if is_of_a_swap(message.kind) => tints::egui(colours::PILOT),
+        _ => tints::egui(colours::team_text(message.from.team)).gamma_multiply(0.75),
+    }
+}
+
+fn paint_arrow(painter: &egui::Painter, message: &Transmission, arrow: &Arrow, plain: bool) {
+    let colour = colour(message, arrow.end);
+    let stroke = Stroke::new(if is_of_a_swap(message.kind) { 1.6 } else { 1.1 }, colour);
+    let ends = [arrow.from, arrow.to];
+    if message.late && !plain {
+        painter.extend(egui::Shape::dashed_line(&ends, stroke, 5.0, 3.5));
+    } else {
+        painter.line_segment(ends, stroke);
+    }
+    match arrow.end {
+        End::Arrived if !plain => tip(painter, arrow, colour),
+        End::Arrived => {}
+        End::OnItsWay => {
+            painter.circle_filled(arrow.to, 2.5, colour);
+        }
+        End::Lost(_) => cross(painter, arrow.to, tints::egui(colours::PENALTY)),
+    }
+}
+
+fn tip(painter: &egui::Painter, arrow: &Arrow, colour: Color32) {
+    let along = (arrow.to - arrow.from).normalized();
+    let back = arrow.to - 6.0 * along;
+    let aside = 3.0 * along.rot90();
+    painter.add(egui::Shape::convex_polygon(
+        vec![arrow.to, back + aside, back - aside],
+        colour,
+        Stroke::NONE,
+    ));
+}
+
+fn cross(painter: &egui::Painter, at: Pos2, colour: Color32) {
+    let stroke = Stroke::new(1.8, colour);
+    painter.line_segment([at + vec2(-3.5, -3.5), at + vec2(3.5, 3.5)], stroke);
+    painter.line_segment([at + vec2(-3.5, 3.5), at + vec2(3.5, -3.5)], stroke);
+}
+
+/// Role swaps first and the newest first; a message to the whole team has one label.
+fn paint_labels(painter: &egui::Painter, axes: &Axes, arrows: &[(&Transmission, Arrow)]) {
+    let mut labels = Labels::default();
+    let font = egui::FontId::proportional(TEXT);
+    for important in [true, false] {
+        if !important && arrows.len() > CROWDED {
+            break;
+        }
+        let mut last = None;
+        for (message, arrow) in arrows.iter().filter(|(message, _)| is_of_a_swap(message.kind) == important) {
+            let what = (message.kind, message.sequence, message.from, message.sent);
+            if last.replace(what) == Some(what) {
+                continue;
+            }
+            let text = words::label(message);
+            let galley = painter.layout_no_wrap(text, font.clone(), colour(message, arrow.end));
+            let size = galley.size() + vec2(4.0, -2.0);
+            let Some(place) = labels.place(arrow, size, axes.rect, important) else { continue };
+            painter.rect_filled(place, 2.0, Color32::from_black_alpha(170));
+            let at = place.center() - galley.size() / 2.0;
+            painter.galley(at, galley, Color32::WHITE);
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! The page of the radio's panel with a row for each robot: how much it said, what became of that, and buttons for what may
+//! befall it.
+
+use bevy_egui::egui::{self, RichText};
+
+use super::{Desk, Heard};
+use crate::app::inspector::tints;
+use crate::app::view::colours;
+use crate::comms::radio::{LinkCounters, Loss};
+use crate::game::requests::{Request, Treatment, Weather};
+use crate::ids::RobotId;
+use crate::robot::{Ailment, Condition, Recall};
+
+/// Width of a column of figures, in points.
+const COLUMN: f32 = 58.0;
+
+/// The figures' names, with what they count.
+const FIGURES: [(&str, &str); 6] = [
+    ("sent", "Messages that it sent, one for each receiver"),
+    ("arrived", "Of these, with second copies, those that arrived"),
+    ("lost", "Of these, those that were lost"),
+    ("late", "Of these, those that took longer than the radio's ordinary delay"),
+    ("kB", "Kilobytes that it sent"),
+    ("heard", "Messages that it heard"),
+];
+
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, desk: &mut Desk) {
+    egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        egui::Grid::new("robots on the radio").num_columns(4).spacing([12.0, 5.0]).show(ui, |ui| {
+            ui.weak("robot");
+            ui.horizontal(|ui| {
+                for (name, counts) in FIGURES {
+                    figure(ui, RichText::new(name).weak()).on_hover_text(counts);
+                }
+            });
+            ui.weak("befalls it");
+            ui.weak("and ends");
+            ui.end_row();
+            for (robot, condition) in robots {
+                show_robot(ui, *robot, *condition, heard, desk);
+                ui.end_row();
+            }
+        });
+    });
+}
+
+fn show_robot(ui: &mut egui::Ui, robot: RobotId, condition: Condition, heard: &Heard, desk: &mut Desk) {
+    let name = RichText::new(robot.to_string()).color(tints::egui(colours::team_text(robot.team)));
+    ui.label(name);
+    let sent = heard.traffic.sent_by(robot);
+    ui.horizontal(|ui| {
+        figure(ui, sent.sent.to_string().into());
+        figure(ui, sent.delivered.to_string().into());
+        figure(ui, sent.lost_in_all().to_string().into()).on_hover_text(reasons(&sent));
+        figure(ui, sent.late.to_string().into());
+        figure(ui, format!("{:.1}", sent.bytes as f64 / 1000.0).into());
+        figure(ui, heard.traffic.sent_to(robot).delivered.to_string().into());
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        show_ailments(ui, robot, condition, desk);
+        show_cut_off(ui, robot, heard.conditions.cut_off.contains(&robot), desk);
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let asked = desk.requests.iter().any(
+            |request| matches!(request, Request::Robot(of, Treatment::Revive(_)) if *of == robot),
+        );
+        for (recall, name, tip) in [
+            (
+                Recall::Kept,
+                "Revive",
+                "All is well again. If it had crashed, it is switched on and still knows its role and its counters",
+            ),
+            (Recall::Lost, "Revive as new", "All is well again. If it had crashed, it has forgotten everything"),
+        ] {
+            let button = ui.add_enabled(!condition.is_well() && !asked, egui::Button::new(name));
+            if button.on_hover_text(tip).clicked() {
+                desk.ask(Request::Robot(robot, Treatment::Revive(recall)));
+            }
+        }
+    });
+}
+
+fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, desk: &mut Desk) {
+    for (ailment, name, tip) in [
+        (Ailment::Crashed, "Crash", "Switches its computer off: it stands still, silent and deaf"),
+        (Ailment::Frozen, "Freeze", "Switches its wheels off; it goes on thinking and talking"),
+        (Ailment::Deaf, "Deaf", "It hears nothing any more"),
+        (Ailment::Mute, "Mute", "Nothing that it says goes on air any more"),
+    ] {
+        let has = condition.with(ailment) == condition;
+        let asked = desk.requests.iter().any(|request| {
+            matches!(request, Request::Robot(of, Treatment::Afflict(one)) if *of == robot && *one == ailment)
+        });
+        let button = ui.add(egui::Button::new(name).selected(has || asked));
+        let tip = if has { format!("{tip}. It is so: revive it to end that") } else { tip.to_owned() };
+        if button.on_hover_text(tip).clicked() && !has && !asked {
+            desk.ask(Request::Robot(robot, Treatment::Afflict(ailment)));
+        }
+    }
+}
+
+fn show_cut_off(ui: &mut egui::Ui, robot: RobotId, in_force: bool, desk: &mut Desk) {
+    let cut_off = desk.shown(in_force, |request| match request {
+        Request::Air(Weather::CutOff(of)) if *of == robot => Some(true),
+        Request::Air(Weather::Reconnect(of)) if *of == robot => Some(false),
+        _ => None,
+    });
+    let (words, weather) =
+        if cut_off { ("Reconnect", Weather::Reconnect(robot)) } else { ("Cut off", Weather::CutOff(robot)) };
+    let tip = "A robot that is cut off hears nobody and is heard by nobody";
+    if ui.add(egui::Button::new(words).selected(cut_off)).on_hover_text(tip).clicked() {
+        desk.ask(Request::Air(weather));
+    }
+}
+
+/// A figure in a column, aligned to the right.
+fn figure(ui: &mut egui::Ui, text: RichText) -> egui::Response {
+    let size = egui::vec2(COLUMN, ui.spacing().interact_size.y);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(COLUMN);
+        ui.label(text)
+    })
+    .inner
+}
+
+/// What was lost for which reason.
+fn reasons(counters: &LinkCounters) -> String {
+    let lost: Vec<String> = Loss::ALL
+        .into_iter()
+        .filter(|loss| counters.lost_to(*loss) > 0)
+        .map(|loss| format!("{loss}: {}", counters.lost_to(loss)))
+        .collect();
+    if lost.is_empty() { "Nothing was lost".into() } else { lost.join("\n") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn losses_are_told_by_reason() {
+        let mut counters = LinkCounters::default();
+        assert_eq!(reasons(&counters), "Nothing was lost");
+        counters.lost[Loss::Jammed.index()] = 3;
+        counters.lost[Loss::Deaf.index()] = 1;
+        assert_eq!(reasons(&counters), "jammed: 3\ndeaf: 1");
+    }
+}

@@ -1,0 +1,52 @@
+//! What the robot is doing, since when, and how it came to that.
+
+use bevy_egui::egui::{self, RichText};
+
+use crate::app::inspector::subject::Looked;
+use crate::app::inspector::{figures, table};
+use crate::mind::behaviour::Taken;
+
+/// Transitions that are shown, newest first.
+const SHOWN: usize = 5;
+
+pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
+    let activity = robot.of.activity;
+    let machine = robot.strategy.machines.get(activity.machine(robot.strategy));
+    let state = robot.activity().map_or(figures::UNKNOWN, |state| &state.name);
+    let since = figures::seconds(robot.since(activity.since));
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(state).strong().size(15.0));
+        ui.label(format!("for {since}"));
+        if let Some(machine) = machine {
+            ui.weak(format!("of the machine {}", machine.name));
+        }
+    });
+    if activity.history.is_empty() {
+        ui.weak("no transition yet");
+    }
+    for taken in activity.history.iter().rev().take(SHOWN) {
+        let ago = figures::seconds(robot.since(taken.tick));
+        table::line(ui, &format!("{ago} ago"), transition(ui, taken));
+    }
+}
+
+/// A transition in words. A change of sub-role that keeps the state says so by its end alone.
+fn transition(ui: &egui::Ui, taken: &Taken) -> egui::text::LayoutJob {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let mut text = egui::text::LayoutJob::default();
+    let mut say = |words: &str, colour| {
+        text.append(words, 0.0, egui::TextFormat::simple(font.clone(), colour));
+    };
+    let (plain, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let sub_role = taken.because == "sub-role";
+    if !(sub_role && taken.to.starts_with(&taken.from)) {
+        say(&taken.from, weak);
+        say(" › ", weak);
+    }
+    say(&taken.to, plain);
+    if !sub_role {
+        say(", because ", weak);
+        say(&taken.because, plain);
+    }
+    text
+}

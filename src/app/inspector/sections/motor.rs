@@ -1,0 +1,180 @@
+//! The running assemblage: a row a motor schema with its vector and its weight, what they add up to, and what becomes of that.
+
+use bevy::prelude::*;
+use bevy_egui::egui::{self, RichText};
+
+use super::Desk;
+use crate::app::inspector::kinds::Kind;
+use crate::app::inspector::subject::Looked;
+use crate::app::inspector::weights::Place;
+use crate::app::inspector::{figures, table, tints};
+use crate::geometry::{Attacking, angle, wrap_angle};
+use crate::mind::motor::SteeringIntent;
+use crate::robot::DriveCommand;
+use crate::strategy::{Combination, Term};
+
+pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+    match robot.assemblage() {
+        Some((index, assemblage)) => {
+            let how = match assemblage.combination {
+                Combination::WeightedSum => "weighted sum",
+                Combination::WinnerTakeAll => "winner takes all",
+            };
+            table::line(ui, "runs", format!("{}, {how}", assemblage.name));
+            for (number, term) in assemblage.terms.iter().enumerate() {
+                let place = Place { team: robot.id.team, assemblage: index, term: number };
+                let vector = robot.of.contributions.vectors.get(number).copied();
+                schema(ui, (term, place, vector), robot.ends, desk);
+            }
+            sum(ui, robot);
+        }
+        None => {
+            table::line(ui, "runs", "no motor schemas in this state");
+        }
+    }
+    outcome(ui, robot);
+}
+
+/// Widths of what stands to the right of a schema's name.
+const ICON: f32 = 22.0;
+const FIGURE: f32 = 42.0;
+const SLIDER: f32 = 62.0;
+const VALUE: f32 = 40.0;
+const RESET: f32 = 20.0;
+/// Height of a schema's row.
+const ROW: f32 = 19.0;
+
+const WEIGHT_TIP: &str = "The schema's weight, for the whole team, from the next tick on";
+
+fn schema(
+    ui: &mut egui::Ui,
+    (term, place, vector): (&Term, Place, Option<Vec2>),
+    ends: Attacking,
+    desk: &mut Desk,
+) {
+    let kind = Kind::of(&term.schema);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let fixed = ICON + 2.0 * FIGURE + SLIDER + VALUE + RESET + 3.0 * 4.0;
+        let room = egui::vec2((ui.available_width() - fixed).max(40.0) + ICON + 2.0 * FIGURE, ROW);
+        ui.allocate_ui(room, |ui| {
+            vector_row(ui, &term.name, vector.unwrap_or_default(), tints::kind(kind), ends)
+                .on_hover_text(format!("{}: {}", term.name, kind.words()));
+        });
+        weight(ui, place, term.weight, desk);
+    });
+}
+
+/// An arrow as it lies on the pitch, a name, a length without a unit and an angle.
+fn vector_row(ui: &mut egui::Ui, name: &str, vector: Vec2, tint: Color, ends: Attacking) -> egui::Response {
+    let size = egui::vec2(ui.available_width(), ROW);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+    let idle = vector.length() < 0.005;
+    let painter = ui.painter();
+    let centre = rect.left_center() + egui::vec2(ICON / 2.0 - 2.0, 0.0);
+    if idle {
+        painter.circle_filled(centre, 2.0, tints::egui(tint));
+    } else {
+        let on_pitch = ends.turn(vector).normalize_or_zero();
+        let way = egui::vec2(on_pitch.x, -on_pitch.y) * (5.0 + 4.0 * vector.length().min(1.0));
+        painter.arrow(centre - way, 2.0 * way, egui::Stroke::new(2.0, tints::egui(tint)));
+    }
+    let figures = [
+        if idle { "0".into() } else { figures::fixed(vector.length(), 2) },
+        if idle { String::new() } else { format!("{}°", figures::degrees(angle(vector))) },
+    ];
+    table::paint_row(ui, rect.with_min_x(rect.left() + ICON), name, &figures, FIGURE);
+    response
+}
+
+fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut Desk) {
+    let mut wanted = desk.weights.shown(place, in_force);
+    let filed = desk.weights.in_file(place).unwrap_or(in_force);
+    let differs = (wanted - filed).abs() > 1e-3;
+    let before = wanted;
+    ui.spacing_mut().slider_width = SLIDER;
+    let slider = egui::Slider::new(&mut wanted, 0.0..=3.0)
+        .step_by(0.05)
+        .show_value(false)
+        .clamping(egui::SliderClamping::Edits);
+    let slider = ui.add(slider);
+    if slider.drag_stopped() {
+        // Otherwise it would keep the keyboard to itself.
+        slider.surrender_focus();
+    }
+    if !slider.dragged() {
+        slider.on_hover_text(WEIGHT_TIP);
+    }
+    let value =
+        egui::DragValue::new(&mut wanted).range(0.0..=3.0).speed(0.01).max_decimals(2).min_decimals(2);
+    let value = value.clamp_existing_to_range(false).update_while_editing(false);
+    ui.scope(|ui| {
+        if differs {
+            ui.visuals_mut().override_text_color = Some(tints::egui(tints::CHANGED));
+        }
+        ui.add_sized([VALUE, ROW], value).on_hover_text("Drag, or click to type");
+    });
+    if differs {
+        let tip = format!("Reset to the file's {}", figures::fixed(filed, 2));
+        if ui.add_sized([RESET, ROW], egui::Button::new("⟲").frame(false)).on_hover_text(tip).clicked() {
+            wanted = filed;
+        }
+    }
+    if wanted != before && wanted.is_finite() {
+        desk.weights.ask(place, wanted, desk.requests);
+    }
+}
+
+fn sum(ui: &mut egui::Ui, robot: &Looked) {
+    let fixed = SLIDER + VALUE + RESET + 3.0 * 4.0;
+    let room = egui::vec2((ui.available_width() - fixed).max(40.0), ROW);
+    ui.allocate_ui(room, |ui| {
+        vector_row(ui, "sum", robot.of.contributions.sum, tints::SUM, robot.ends).on_hover_text(
+            "Its angle is where to go, in the team frame: 0° to the opponents' goal, positive to the left. \
+             Its length is how fast, as a share of the state's speed",
+        );
+    });
+}
+
+fn outcome(ui: &mut egui::Ui, robot: &Looked) {
+    let name = if robot.of.piloted { "would" } else { "intends" };
+    table::line(ui, name, intent(robot));
+    match robot.of.command {
+        DriveCommand::Wheels(speeds) => {
+            let [left, right] = [speeds.left, speeds.right].map(figures::speed);
+            table::line(ui, "wheels", format!("left {left}, right {right}"));
+        }
+        DriveCommand::Gait(gait) => {
+            let [ahead, left] = [gait.ahead, gait.left].map(figures::speed);
+            let turn = figures::fixed(gait.turn.to_degrees(), 0);
+            table::line(ui, "legs", format!("{ahead} ahead, {left} to the left, {turn}°/s"));
+        }
+    }
+}
+
+fn intent(robot: &Looked) -> RichText {
+    let words = match *robot.of.intent {
+        SteeringIntent::Stop => "to stand still".into(),
+        SteeringIntent::Spin(rate) => {
+            format!("to turn on the spot, {}°/s {}", rate.abs().to_degrees().round(), side(rate))
+        }
+        SteeringIntent::Steer { heading, speed, .. } => {
+            let turn = wrap_angle(heading - robot.of.odometry.pose.heading);
+            let pace = format!(
+                "{} ({})",
+                figures::speed(speed.abs() * robot.of.robot.kind.max_speed()),
+                figures::percent(speed.abs())
+            );
+            match speed {
+                0.0 => format!("to face {}", figures::aside(turn)),
+                _ if speed < 0.0 => format!("to back up at {pace}, turning {}", figures::aside(turn)),
+                _ => format!("to drive {} at {pace}", figures::aside(turn)),
+            }
+        }
+    };
+    RichText::new(words)
+}
+
+fn side(turn: f32) -> &'static str {
+    if turn >= 0.0 { "left" } else { "right" }
+}

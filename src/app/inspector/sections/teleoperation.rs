@@ -1,0 +1,199 @@
+//! A person's hands on the robot without keys: a pad to walk on, levers for turn and head, and a button for each kick.
+
+use bevy::prelude::*;
+use bevy_egui::egui::{self, RichText};
+
+use super::{Desk, identity, pad};
+use crate::app::inspector::figures;
+use crate::app::inspector::subject::Looked;
+use crate::app::view::keys::{Deed, Drive, Keyboard};
+use crate::app::view::levers::Levers;
+use crate::robot::{Drive as Legs, Kick, RobotKind};
+use crate::world::handling::Grip;
+
+/// Width of a lever, in points.
+const LEVER: f32 = 120.0;
+
+pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+    let kind = &robot.of.robot.kind;
+    let mine = robot.of.piloted && desk.piloted.0 == Some(robot.id);
+    if !mine {
+        ui.horizontal(|ui| {
+            identity::hand_over(ui, robot.id, robot.of.piloted, desk);
+            ui.weak("the robot to work its levers");
+        });
+    }
+    let mut still = Levers::default();
+    ui.add_enabled_ui(mine, |ui| {
+        let levers = if mine { &mut *desk.levers } else { &mut still };
+        ui.horizontal_top(|ui| {
+            walk(ui, kind, levers);
+            ui.add_space(6.0);
+            ui.vertical(|ui| {
+                speeds(ui, kind, levers);
+                if matches!(kind.drive, Legs::Walker(_)) {
+                    turn(ui, kind, levers);
+                }
+                head(ui, robot, levers);
+                if kind.chin.is_some() {
+                    hold(ui, robot, levers, desk.keyboard);
+                }
+            });
+        });
+        kicks(ui, robot, levers);
+    });
+}
+
+/// The pad. What has wheels turns where what has legs steps aside.
+fn walk(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
+    match kind.drive {
+        Legs::Walker(_) => pad::show(ui, &mut levers.pull.walk, "left and right step aside"),
+        Legs::Differential(_) => {
+            let mut way = Vec2::new(levers.pull.walk.x, levers.pull.turn);
+            pad::show(ui, &mut way, "left and right turn");
+            (levers.pull.walk.x, levers.pull.turn) = (way.x, way.y);
+        }
+    }
+}
+
+/// What the pad asks for.
+fn speeds(ui: &mut egui::Ui, kind: &RobotKind, levers: &Levers) {
+    let Vec2 { x, y } = levers.pull.walk;
+    let (ahead, second) = match kind.drive {
+        Legs::Walker(walker) => {
+            let ahead = x * if x >= 0.0 { walker.ahead } else { walker.back };
+            (ahead, format!("{} to the {}", figures::speed(y.abs() * walker.aside), side(y)))
+        }
+        Legs::Differential(drive) => {
+            let turn = levers.pull.turn;
+            let rate = figures::fixed(turn.abs() * drive.turn_rate, 0);
+            (x * drive.max_speed, format!("{rate}°/s to the {}", side(turn)))
+        }
+    };
+    let way = if ahead >= 0.0 { "ahead" } else { "back" };
+    ui.label(format!("{} {way}, {second}", figures::speed(ahead.abs())));
+}
+
+fn side(left: f32) -> &'static str {
+    if left >= 0.0 { "left" } else { "right" }
+}
+
+/// A lever that is drawn from left to right, in degrees; positive is left.
+fn lever(ui: &mut egui::Ui, name: &str, value: &mut f32, most: f32, unit: &str) -> egui::Response {
+    ui.spacing_mut().slider_width = LEVER;
+    ui.horizontal(|ui| {
+        ui.add_sized([34.0, 18.0], egui::Label::new(name));
+        // A slider that rounds would take the rounding for a person's hand.
+        *value = value.round();
+        let slider = egui::Slider::new(value, most..=-most)
+            .fixed_decimals(0)
+            .custom_formatter(|value, _| figures::fixed(value as f32, 0))
+            .suffix(unit.to_owned());
+        ui.add(slider)
+    })
+    .inner
+}
+
+fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
+    let most = kind.max_turn().to_degrees();
+    let mut rate = levers.pull.turn * most;
+    let slider = lever(ui, "Turn", &mut rate, most, "°/s");
+    levers.pull.turn = rate / most;
+    if slider.drag_stopped() {
+        levers.pull.turn = 0.0;
+        // Otherwise it would keep the keyboard to itself.
+        slider.surrender_focus();
+    }
+    if !slider.dragged() {
+        slider.on_hover_text(
+            "Turns on the spot or while it walks, to the left above zero; springs back when let go",
+        );
+    }
+}
+
+fn head(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
+    let Some(neck) = &robot.of.robot.kind.neck else { return };
+    let mut pan = levers.head.map_or(robot.of.head.pan.to_degrees(), |share| share * neck.pan);
+    let slider = lever(ui, "Head", &mut pan, neck.pan, "°");
+    if slider.changed() {
+        levers.head = Some(pan / neck.pan);
+    }
+    if slider.drag_stopped() {
+        slider.surrender_focus();
+    }
+    if !slider.dragged() {
+        slider.on_hover_text("Where the head looks, to the left above zero");
+    }
+    let mut itself = levers.head.is_none();
+    let tip = "The head follows the ball, or looks for it, as when the robot plays";
+    if ui.checkbox(&mut itself, "the head looks for the ball itself").on_hover_text(tip).changed() {
+        levers.head = (!itself).then_some(pan / neck.pan);
+    }
+}
+
+fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers, keyboard: &Keyboard) {
+    let told = match robot.of.handling.grip {
+        Grip::Open => "open",
+        Grip::Lowering { .. } => "goes down",
+        Grip::Holding { .. } => "holds the ball",
+        Grip::Raising { .. } => "missed, goes up",
+    };
+    ui.horizontal(|ui| {
+        let key = keyboard.key(Deed::Drive(Drive::Hold));
+        let tip =
+            format!("The chin catches the ball when it is before the chest, and keeps it ({key}, held)");
+        ui.checkbox(&mut levers.pull.hold, "hold the ball").on_hover_text(tip);
+        ui.weak(format!("the chin: {told}"));
+    });
+}
+
+fn kicks(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
+    let kicks = &robot.of.robot.kind.kicks;
+    if kicks.is_empty() {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Kick");
+        for (number, (name, kick)) in kicks.iter().enumerate() {
+            let now = robot.of.handling.kicking.is_some_and(|kicking| kicking.kick == *kick);
+            let asked = levers.kick_asked() == Some(number);
+            let button = egui::Button::new(RichText::new(name.replace('_', " "))).selected(now || asked);
+            let possible = !kick.from_hold || robot.of.handling.holds();
+            let button = ui.add_enabled(possible, button);
+            let button = button.on_hover_text(told(kick)).on_disabled_hover_text(told(kick));
+            if button.clicked() {
+                levers.kick(number, &robot.clock);
+            }
+        }
+    });
+}
+
+/// A kick in words.
+fn told(kick: &Kick) -> String {
+    let way = figures::aside(kick.direction.to_radians());
+    let hold = if kick.from_hold { "; the chin has to hold the ball" } else { "" };
+    format!(
+        "Sends the ball {way}, {} far, within {}{hold}",
+        figures::metres(kick.run_out),
+        figures::seconds(kick.time)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kick_tells_where_how_far_and_what_it_needs() {
+        let kick = Kick {
+            direction: -75.0,
+            run_out: 2.22,
+            run_out_spread: 0.0,
+            spread: 0.0,
+            time: 1.2,
+            from_hold: true,
+        };
+        let words = "Sends the ball 75° right, 2.22 m far, within 1.2 s; the chin has to hold the ball";
+        assert_eq!(told(&kick), words);
+    }
+}

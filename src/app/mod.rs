@@ -1,0 +1,8 @@
+//! The program that a person uses: its command line and its window.
+
+pub mod cli;
+#[cfg(feature = "window")]
+pub mod inspector;
+pub mod logging;
+#[cfg(feature = "window")]
+pub mod view;

@@ -1,0 +1,280 @@
+//! Faults put into the radio on purpose, as data: "drop the second ACKSWAP from home 2".
+//!
+//! A rule counts packets, and a packet is one delivery to one receiver: a message to three team mates is three packets,
+//! counted in the order of their sending. Times are seconds of the match.
+
+use bevy::prelude::Resource;
+use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
+
+use super::packet::Packet;
+use crate::comms::messages::MessageKind;
+use crate::data::{Bound, Fault, first_fault};
+use crate::ids::RobotId;
+
+/// What happens to which packets. A condition that is left out holds for all.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FaultRule {
+    #[serde(default)]
+    pub kind: Option<MessageKind>,
+    #[serde(default)]
+    pub from: Option<RobotId>,
+    #[serde(default)]
+    pub to: Option<RobotId>,
+    /// From the first time until just before the second, which may be `inf`. Packets at other times are not counted.
+    #[serde(default)]
+    pub between: Option<(f32, f32)>,
+    /// Which of the packets that satisfy all the above.
+    #[serde(default)]
+    pub which: Which,
+    pub act: Act,
+}
+
+/// A choice among the packets that a rule counts, from 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Which {
+    #[default]
+    All,
+    First,
+    Nth(u32),
+    /// This one and all after it.
+    From(u32),
+}
+
+/// What a rule does to a packet.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Act {
+    Drop,
+    /// It arrives this much later, s.
+    Delay(f32),
+    /// It arrives once more, this much later than the first time, s.
+    Duplicate(f32),
+}
+
+/// The acts on one packet, in the order of their rules.
+pub type Acts = SmallVec<[Act; 2]>;
+
+/// What a rule has done so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Packets that satisfied its conditions.
+    pub counted: u32,
+    /// Packets that it acted on.
+    pub acted: u32,
+}
+
+/// The rules in force, each with its own count.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct FaultRules {
+    rules: Vec<(FaultRule, Tally)>,
+}
+
+impl Which {
+    fn takes(self, count: u32) -> bool {
+        match self {
+            Which::All => true,
+            Which::First => count == 1,
+            Which::Nth(n) => count == n,
+            Which::From(n) => count >= n,
+        }
+    }
+}
+
+impl FaultRule {
+    /// Whether the rule counts this packet.
+    pub fn matches(&self, packet: &Packet, now: f64) -> bool {
+        let in_time = |(from, until): (f32, f32)| (f64::from(from)..f64::from(until)).contains(&now);
+        self.kind.is_none_or(|kind| kind == packet.kind)
+            && self.from.is_none_or(|from| from == packet.from)
+            && self.to.is_none_or(|to| to == packet.to)
+            && self.between.is_none_or(in_time)
+    }
+
+    /// What is wrong with the rule, as the field's path and a reason.
+    pub fn fault(&self) -> Option<Fault> {
+        if let Which::Nth(0) | Which::From(0) = self.which {
+            return Some(("which".into(), "packets are counted from 1".into()));
+        }
+        if let Some((from, until)) = self.between {
+            let start = Bound::SECONDS.fault(from).map(|message| ("between.0".into(), message));
+            let end = || {
+                let message = Bound::SECONDS.fault(until).filter(|_| until != f32::INFINITY)?;
+                Some(("between.1".into(), message))
+            };
+            let order = || {
+                let message = || format!("must end after its start, not go from {from} to {until}");
+                (from >= until).then(|| ("between".into(), message()))
+            };
+            if let Some(fault) = start.or_else(end).or_else(order) {
+                return Some(fault);
+            }
+        }
+        match self.act {
+            Act::Delay(seconds) | Act::Duplicate(seconds) => first_fault([("act", seconds, Bound::SECONDS)]),
+            Act::Drop => None,
+        }
+    }
+}
+
+impl FaultRules {
+    pub fn new(rules: impl IntoIterator<Item = FaultRule>) -> FaultRules {
+        FaultRules { rules: rules.into_iter().map(|rule| (rule, Tally::default())).collect() }
+    }
+
+    /// Adds a rule, which counts from now on.
+    pub fn add(&mut self, rule: FaultRule) {
+        self.rules.push((rule, Tally::default()));
+    }
+
+    /// Takes all rules away.
+    pub fn clear(&mut self) {
+        self.rules.clear();
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.rules.is_empty()
+    }
+
+    /// The rules in their order and what each has done.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (&FaultRule, Tally)> {
+        self.rules.iter().map(|(rule, tally)| (rule, *tally))
+    }
+
+    /// Counts a packet that is sent at `now`, s, and tells what happens to it. No rule hides a packet from another.
+    pub fn apply(&mut self, packet: &Packet, now: f64) -> Acts {
+        let mut acts = Acts::new();
+        for (rule, tally) in &mut self.rules {
+            if rule.matches(packet, now) {
+                tally.counted += 1;
+                if rule.which.takes(tally.counted) {
+                    tally.acted += 1;
+                    acts.push(rule.act);
+                }
+            }
+        }
+        acts
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::ron_options;
+    use crate::ids::Team;
+
+    fn home(number: u8) -> RobotId {
+        RobotId::new(Team::Home, number)
+    }
+
+    fn packet(kind: MessageKind, from: u8, to: u8) -> Packet {
+        Packet { kind, from: home(from), to: home(to), bytes: 10, distance: 1.0 }
+    }
+
+    fn rule(text: &str) -> FaultRule {
+        ron_options().from_str(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+    }
+
+    fn rules(texts: &[&str]) -> FaultRules {
+        FaultRules::new(texts.iter().map(|text| rule(text)))
+    }
+
+    #[test]
+    fn the_second_ackswap_of_one_robot_is_dropped_and_nothing_else() {
+        let mut rules = rules(&[r#"(kind: AckSwap, from: "home 2", which: Nth(2), act: Drop)"#]);
+        let mut acts = |kind, from| rules.apply(&packet(kind, from, 0), 0.0).to_vec();
+        assert_eq!(acts(MessageKind::AckSwap, 2), []);
+        assert_eq!(acts(MessageKind::AckLock, 2), []);
+        assert_eq!(acts(MessageKind::AckSwap, 1), []);
+        assert_eq!(acts(MessageKind::AckSwap, 2), [Act::Drop]);
+        assert_eq!(acts(MessageKind::AckSwap, 2), []);
+        assert_eq!(rules.iter().next().unwrap().1, Tally { counted: 3, acted: 1 });
+    }
+
+    #[test]
+    fn the_first_lock_is_delayed() {
+        let mut rules = rules(&["(kind: Lock, which: First, act: Delay(1.5))"]);
+        assert_eq!(rules.apply(&packet(MessageKind::Lock, 0, 1), 0.0).to_vec(), [Act::Delay(1.5)]);
+        assert!(rules.apply(&packet(MessageKind::Lock, 0, 1), 0.0).is_empty());
+    }
+
+    #[test]
+    fn a_message_to_three_robots_counts_three_times() {
+        let mut rules = rules(&["(kind: Lock, which: Nth(2), act: Drop)"]);
+        let hit = [1, 2, 3].map(|to| !rules.apply(&packet(MessageKind::Lock, 0, to), 0.0).is_empty());
+        assert_eq!(hit, [false, true, false]);
+    }
+
+    #[test]
+    fn a_receiver_and_all_from_a_number_on_can_be_meant() {
+        let mut rules = rules(&[r#"(to: "home 3", which: From(2), act: Duplicate(0.2))"#]);
+        let mut hit = |to| !rules.apply(&packet(MessageKind::Position, 0, to), 0.0).is_empty();
+        assert_eq!([hit(3), hit(1), hit(3), hit(3)], [false, false, true, true]);
+    }
+
+    #[test]
+    fn packets_outside_the_time_of_a_rule_are_not_counted() {
+        let mut rules = rules(&["(between: (10.0, 12.0), which: First, act: Drop)"]);
+        let times = [9.9, 12.0, 10.0, 11.0];
+        let hit = times.map(|now| !rules.apply(&packet(MessageKind::Swap, 0, 1), now).is_empty());
+        assert_eq!(hit, [false, false, true, false]);
+    }
+
+    #[test]
+    fn every_rule_counts_for_itself() {
+        let mut rules =
+            rules(&["(act: Drop, which: First)", "(act: Delay(1.0), which: Nth(2))", "(act: Delay(2.0))"]);
+        let mut acts = || rules.apply(&packet(MessageKind::Values, 0, 1), 0.0).to_vec();
+        assert_eq!(acts(), [Act::Drop, Act::Delay(2.0)]);
+        assert_eq!(acts(), [Act::Delay(1.0), Act::Delay(2.0)]);
+    }
+
+    #[test]
+    fn a_rule_that_is_added_counts_from_then_on() {
+        let mut rules = rules(&["(act: Drop)"]);
+        rules.apply(&packet(MessageKind::Goalie, 0, 1), 0.0);
+        rules.add(rule("(which: First, act: Delay(1.0))"));
+        assert_eq!(
+            rules.apply(&packet(MessageKind::Goalie, 0, 1), 0.0).to_vec(),
+            [Act::Drop, Act::Delay(1.0)]
+        );
+        rules.clear();
+        assert!(rules.is_empty() && rules.apply(&packet(MessageKind::Goalie, 0, 1), 0.0).is_empty());
+    }
+
+    #[test]
+    fn a_rule_reads_back_as_it_was_written_with_its_robots_as_text() {
+        let written = FaultRule {
+            kind: Some(MessageKind::HaveBall),
+            from: Some(home(2)),
+            to: None,
+            between: Some((1.0, 2.0)),
+            which: Which::From(3),
+            act: Act::Delay(0.5),
+        };
+        let text = ron_options().to_string(&written).unwrap();
+        assert!(text.contains("\"home 2\""), "{text}");
+        assert_eq!(rule(&text), written);
+    }
+
+    #[test]
+    fn a_robot_that_is_none_is_refused_with_a_hint() {
+        let error = ron_options().from_str::<FaultRule>(r#"(from: "guest 1", act: Drop)"#).unwrap_err();
+        assert!(error.to_string().contains("is no robot"), "{error}");
+    }
+
+    #[test]
+    fn a_senseless_rule_is_named_with_its_field() {
+        let field = |text| rule(text).fault().map(|(field, _)| field);
+        assert_eq!(field("(which: Nth(1), between: (0.0, 1.0), act: Delay(0.0))"), None);
+        assert_eq!(field("(which: Nth(0), act: Drop)").as_deref(), Some("which"));
+        assert_eq!(field("(which: From(0), act: Drop)").as_deref(), Some("which"));
+        assert_eq!(field("(between: (2.0, 2.0), act: Drop)").as_deref(), Some("between"));
+        assert_eq!(field("(between: (NaN, 2.0), act: Drop)").as_deref(), Some("between.0"));
+        assert_eq!(field("(between: (1.0, inf), act: Drop)"), None);
+        assert_eq!(field("(between: (1.0, 1e30), act: Drop)").as_deref(), Some("between.1"));
+        assert_eq!(field("(act: Delay(1e30))").as_deref(), Some("act"));
+        assert_eq!(field("(act: Delay(-1.0))").as_deref(), Some("act"));
+        assert_eq!(field("(act: Duplicate(inf))").as_deref(), Some("act"));
+    }
+}

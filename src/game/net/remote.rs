@@ -1,0 +1,358 @@
+//! The match's side of robots that are processes of their own: in lock-step it tells each what it senses and waits for what
+//! it wants to do. Who does not answer in time goes on with what it wanted last. Who has been silent for long stands still
+//! and is [greeted](super::greeting) again and again; once it answers, it is taken in.
+
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
+use std::time::{Duration, Instant};
+
+use bevy::log::{info, warn};
+use bevy::prelude::*;
+use serde::Serialize;
+
+use super::WireError;
+use super::commands::{entity_of, obey, stand};
+use super::introduction::Introduction;
+use super::protocol::{Command, Sensors, datagrams, unused_number};
+use crate::clock::Clock;
+use crate::comms::tcm::fragments::{Assembly, Limits};
+use crate::comms::tcm::udp::UdpConn;
+use crate::comms::tcm::{Data, Directory, HOST, MessageBudgets, Tcm, party};
+use crate::game::MatchPlan;
+use crate::game::requests::{Request, Requests, Treatment};
+use crate::ids::RobotId;
+use crate::robot::{Recall, Robot};
+use crate::world::handling::Handling;
+use crate::world::head::Head;
+use crate::world::referee::{Orders, RobotState};
+use crate::world::sense::{Odometry, Percepts};
+
+/// How long a tick waits for answers, unless it was [granted](super::grant) less.
+const PATIENCE: Duration = Duration::from_millis(200);
+/// A robot that has not answered for so many ticks stands still, and no tick waits for it until it has answered again.
+const SILENCE: u64 = 10;
+/// The datagrams that are taken at a time when there is nobody to wait for: who floods a match does not stop it.
+pub(super) const TURN: usize = 128;
+
+/// What became of the packets to and from one remote robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct RemoteFigures {
+    pub robot: RobotId,
+    /// Ticks in which it was told what it senses.
+    pub told: u64,
+    /// Ticks in which it answered in time.
+    pub answered: u64,
+    /// Ticks in which its answer was late or lost, or in which it was not there.
+    pub missed: u64,
+    /// Datagrams to robots that it says it has sent.
+    pub sent: u64,
+    /// Datagrams from robots that it says it has received.
+    pub received: u64,
+}
+
+pub(super) struct RemoteRobots {
+    pub(super) conn: UdpConn,
+    assembly: Assembly,
+    counter: u32,
+    session: u32,
+    /// How long ticks may still wait in all, if that was said.
+    pub(super) granted: Option<Duration>,
+    pub(super) robots: BTreeMap<RobotId, Remote>,
+}
+
+pub(super) struct Remote {
+    pub address: SocketAddr,
+    pub introduction: Introduction,
+    figures: RemoteFigures,
+    /// Whether it takes part: it has introduced itself, and it is not silent.
+    pub is_in: bool,
+    /// Whether ticks wait for its answer. Who came back must have answered once.
+    waits: bool,
+    /// The tick of the last answer, or of the introduction.
+    last: u64,
+    /// When it was spoken to last.
+    pub spoken: Option<Instant>,
+    /// Why it was refused last.
+    pub refusal: Option<String>,
+    /// Team messages that it had sent when it answered last.
+    said: u64,
+}
+
+/// What came from the address of a robot.
+pub(super) enum Word {
+    Introduction(Introduction),
+    Command(Command),
+    /// What no robot of this version says.
+    Other,
+}
+
+/// The robots' own decisions are not made here any more.
+pub(super) fn hand_over(world: &mut World, remote: &[RobotId]) {
+    let mut robots = world.query::<(&RobotId, &mut Robot)>();
+    for (id, mut robot) in robots.iter_mut(world) {
+        robot.remote = remote.contains(id);
+    }
+}
+
+/// Switches on the mind of a robot in this process, in the midst of a match: it knows nothing of what was.
+pub(super) fn wake(world: &mut World, robot: RobotId) {
+    if world.resource::<Clock>().tick == 0 {
+        return;
+    }
+    let Some(entity) = entity_of(world, robot) else { return };
+    let mut entity = world.entity_mut(entity);
+    if let Some(mut tcm) = entity.get_mut::<Tcm>() {
+        tcm.count_from(unused_number());
+    }
+    let Some(mut body) = entity.get_mut::<Robot>() else { return };
+    if body.condition.crashed {
+        return;
+    }
+    body.condition.crashed = true;
+    world.resource_mut::<Requests>().ask(Request::Robot(robot, Treatment::Revive(Recall::Lost)));
+}
+
+impl RemoteRobots {
+    pub fn open(
+        directory: &Directory,
+        robots: &[RobotId],
+        plan: &MatchPlan,
+    ) -> Result<RemoteRobots, WireError> {
+        let host = directory.address_of(HOST).ok_or(WireError::NoAddress(HOST))?;
+        let session = unused_number();
+        let remote = |robot: RobotId| {
+            let entity = party(robot);
+            let address = directory.address_of(entity).ok_or(WireError::NoAddress(entity))?;
+            let figures = RemoteFigures { robot, told: 0, answered: 0, missed: 0, sent: 0, received: 0 };
+            let introduction = Introduction::new(plan, robot, session);
+            let remote = Remote {
+                address,
+                introduction,
+                figures,
+                is_in: false,
+                waits: false,
+                last: 0,
+                spoken: None,
+                refusal: None,
+                said: 0,
+            };
+            Ok((robot, remote))
+        };
+        Ok(RemoteRobots {
+            conn: UdpConn::bind(host)?,
+            // Not those of the match, of which the other side may know nothing yet.
+            assembly: Assembly::new(Limits::default()),
+            counter: session,
+            session,
+            granted: None,
+            robots: robots.iter().copied().map(remote).collect::<Result<_, WireError>>()?,
+        })
+    }
+
+    pub fn figures(&self) -> Vec<RemoteFigures> {
+        self.robots.values().map(|remote| remote.figures).collect()
+    }
+
+    /// Tells the robots what they sense and hears what they want to do.
+    pub fn exchange(&mut self, world: &mut World) {
+        let tick = world.resource::<Clock>().tick;
+        self.tell(world, tick, false);
+        self.introduce();
+        let begin = Instant::now();
+        let patience = self.granted.map_or(PATIENCE, |granted| granted.min(PATIENCE));
+        let mut open: Vec<RobotId> = self.robots.keys().copied().collect();
+        let mut turn = TURN;
+        while turn > 0 {
+            let is_awaited = open.iter().any(|robot| self.robots[robot].waits);
+            let patience = if is_awaited { patience } else { Duration::ZERO };
+            let left = patience.saturating_sub(begin.elapsed());
+            turn -= usize::from(left.is_zero());
+            let Some(heard) = self.hear(left) else { break };
+            let Some((robot, word)) = heard else { continue };
+            if let Some(answered) = self.meet(world, robot, word)
+                && answered == tick
+            {
+                open.retain(|other| *other != robot);
+            }
+        }
+        self.granted = self.granted.map(|granted| granted.saturating_sub(begin.elapsed()));
+        for robot in self.robots.keys().copied().collect::<Vec<_>>() {
+            if open.contains(&robot) {
+                self.miss(world, robot, tick);
+            } else if let Some(remote) = self.robots.get_mut(&robot) {
+                remote.figures.answered += 1;
+            }
+        }
+    }
+
+    /// Tells those who take part.
+    fn tell(&mut self, world: &mut World, tick: u64, is_over: bool) {
+        let mut senses = world.query::<(&RobotId, &Percepts, &Odometry, &Head, &Handling, &Orders)>();
+        for (id, percepts, odometry, head, handling, orders) in senses.iter(world) {
+            let Some(remote) = self.robots.get_mut(id).filter(|remote| remote.is_in) else { continue };
+            let sensors = Sensors {
+                session: self.session,
+                tick,
+                frame: percepts.frame.clone(),
+                odometry: odometry.pose,
+                speed: odometry.speed,
+                turn_rate: odometry.turn_rate,
+                stalled_for: odometry.stalled_for,
+                pan: head.pan,
+                holds_ball: handling.holds(),
+                orders: if is_over { Orders { state: RobotState::Finished, ..*orders } } else { *orders },
+            };
+            remote.figures.told += 1;
+            remote.spoken = Some(Instant::now());
+            let to = remote.address;
+            self.send(to, *id, &sensors);
+        }
+    }
+
+    pub(super) fn send<T: Data>(&mut self, to: SocketAddr, robot: RobotId, data: &T) {
+        for datagram in datagrams(data, HOST, party(robot), &mut self.counter) {
+            // A robot that is not there is noticed by its silence.
+            let _ = self.conn.send(to, &datagram);
+        }
+    }
+
+    /// Tells the robots that the match is over.
+    pub fn finish(&mut self, world: &mut World) {
+        let tick = world.resource::<Clock>().tick;
+        self.tell(world, tick, true);
+    }
+
+    /// What comes next, if anything comes in time; `Some(None)` is something that is not for us.
+    pub(super) fn hear(&mut self, patience: Duration) -> Option<Option<(RobotId, Word)>> {
+        let (from, datagram) = self.conn.wait(patience).ok()??;
+        let known = self.robots.iter().find(|(_, remote)| remote.address == from);
+        let Some((&robot, _)) = known else { return Some(None) };
+        let word = match self.assembly.accept(0, datagram) {
+            Ok(None) => return Some(None),
+            Err(_) => Word::Other,
+            Ok(Some(message)) if message.source.entity != party(robot) => Word::Other,
+            Ok(Some(message)) => match message.data_type {
+                Introduction::TYPE => {
+                    Introduction::unserialise(&message.data).map_or(Word::Other, Word::Introduction)
+                }
+                Command::TYPE => Command::unserialise(&message.data).map_or(Word::Other, Word::Command),
+                _ => Word::Other,
+            },
+        };
+        Some(Some((robot, word)))
+    }
+
+    /// Makes of a robot's word what is to be made of it; returns the tick that it answers.
+    pub(super) fn meet(&mut self, world: &mut World, robot: RobotId, word: Word) -> Option<u64> {
+        let session = self.session;
+        let remote = self.robots.get_mut(&robot)?;
+        match word {
+            Word::Introduction(there) => {
+                let difference = remote.introduction.difference(&there);
+                match difference {
+                    Some(difference) => remote.refuse(robot, format!("plays another match: {difference}")),
+                    None if there.session == session => remote.let_in(robot, world.resource::<Clock>().tick),
+                    // It answers the match before.
+                    None => {}
+                }
+                None
+            }
+            Word::Command(command) if command.session == session => {
+                // Who took part and fell silent introduces itself first.
+                if !remote.is_in || command.tick < remote.last {
+                    return None;
+                }
+                (remote.waits, remote.last) = (true, command.tick);
+                (remote.figures.sent, remote.figures.received) = command.datagrams;
+                let said = command.said.saturating_sub(std::mem::replace(&mut remote.said, command.said));
+                if let Some(mut budgets) = world.get_resource_mut::<MessageBudgets>() {
+                    budgets.count(robot.team, said);
+                }
+                obey(world, robot, &command);
+                Some(command.tick)
+            }
+            // The end of the match before.
+            Word::Command(_) => None,
+            Word::Other => {
+                if !remote.is_in {
+                    remote.refuse(robot, "says what no robot of this version says".into());
+                }
+                None
+            }
+        }
+    }
+
+    fn miss(&mut self, world: &mut World, robot: RobotId, tick: u64) {
+        let Some(remote) = self.robots.get_mut(&robot) else { return };
+        remote.figures.missed += 1;
+        if remote.is_in && remote.last + SILENCE < tick {
+            warn!("{robot} at {} has fallen silent and stands still", remote.address);
+            (remote.is_in, remote.waits) = (false, false);
+        }
+        if !remote.is_in {
+            stand(world, robot);
+        }
+    }
+
+    /// Lets a robot go, which is played by this process from now on.
+    pub fn give_up(&mut self, world: &mut World, robot: RobotId) -> bool {
+        let was_remote = self.robots.remove(&robot).is_some();
+        if was_remote
+            && let Some(entity) = entity_of(world, robot)
+            && let Some(mut robot) = world.get_mut::<Robot>(entity)
+        {
+            robot.remote = false;
+        }
+        was_remote
+    }
+}
+
+impl Remote {
+    fn let_in(&mut self, robot: RobotId, tick: u64) {
+        if self.is_in {
+            return;
+        }
+        if tick > 0 {
+            info!("{robot} at {} takes part from now on", self.address);
+        }
+        (self.is_in, self.waits, self.last, self.refusal) = (true, tick == 0, tick, None);
+    }
+
+    fn refuse(&mut self, robot: RobotId, why: String) {
+        (self.is_in, self.waits) = (false, false);
+        let line = format!("{robot} at {} is refused: it {why}", self.address);
+        if self.refusal.as_ref() != Some(&line) {
+            warn!("{line}");
+            self.refusal = Some(line);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::{Ipv4Addr, UdpSocket};
+
+    use super::*;
+    use crate::data::AssetFolder;
+    use crate::game::{Choice, Match};
+    use crate::ids::Team;
+
+    const ROBOT: RobotId = RobotId::new(Team::Home, 1);
+
+    #[test]
+    fn what_was_granted_is_spent_by_the_first_tick_that_waits() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let plan = MatchPlan::read(&assets, &Choice::default()).unwrap();
+        let somewhere = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
+        let silent = UdpSocket::bind(somewhere).unwrap();
+        let directory =
+            [(HOST, somewhere), (party(ROBOT), silent.local_addr().unwrap())].into_iter().collect();
+        let mut remote = RemoteRobots::open(&directory, &[ROBOT], &plan).unwrap();
+        let mut game = Match::new(&plan);
+        remote.robots.values_mut().for_each(|robot| robot.let_in(ROBOT, 0));
+        remote.granted = Some(Duration::from_millis(5));
+        remote.exchange(game.world_mut());
+        assert_eq!(remote.granted, Some(Duration::ZERO));
+        assert_eq!((remote.figures()[0].told, remote.figures()[0].missed), (1, 1));
+    }
+}

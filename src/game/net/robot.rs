@@ -1,0 +1,312 @@
+//! A robot as a process of its own: its beliefs, teamwork, behaviour and motor schemas, with the sensors and motors of a
+//! match that is elsewhere. Team messages go straight from robot to robot.
+
+use std::collections::BTreeMap;
+use std::net::SocketAddr;
+use std::time::{Duration, Instant};
+
+use bevy::prelude::*;
+use serde::Serialize;
+
+use super::WireError;
+use super::carrier::{CarrierFigures, UdpCarrier};
+use super::introduction::Introduction;
+use super::protocol::{Command, Sensors, datagrams, unused_number};
+use super::remote::TURN;
+use crate::clock::Clock;
+use crate::comms::tcm::external_message::Entity as Party;
+use crate::comms::tcm::fragments::{Assembly, Header, Limits};
+use crate::comms::tcm::udp::UdpConn;
+use crate::comms::tcm::{Addresses, Data, HOST, Incoming, MessageBudgets, Tcm, party};
+use crate::game::{MatchPlan, start_mind};
+use crate::ids::RobotId;
+use crate::mind::behaviour::Activity;
+use crate::mind::motor::SteeringIntent;
+use crate::mind::teamwork::Role;
+use crate::mind::world_model::WorldModel;
+use crate::robot::OffPitch;
+use crate::schedule::Tick;
+use crate::world::handling::{Grip, Handling, KickIntent};
+use crate::world::head::{Head, HeadIntent};
+use crate::world::referee::RobotState;
+use crate::world::sense::{Odometry, Percepts};
+
+/// How often a robot that waits looks whether it is to stop.
+const LOOK: Duration = Duration::from_millis(100);
+/// How often a robot says why it does not belong to a match: datagrams get lost, and it says nothing more.
+const LAST_WORDS: usize = 3;
+
+/// A robot without a body.
+pub struct RobotProcess {
+    app: App,
+    plan: MatchPlan,
+    id: RobotId,
+    entity: Entity,
+    assembly: Assembly,
+    counter: u32,
+    /// The match that it belongs to, once one has greeted it, by its session.
+    introduction: Option<Introduction>,
+    /// When its match was heard last.
+    heard: Instant,
+    answered: u64,
+}
+
+/// What became of a robot's datagrams, when it ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct RobotReport {
+    pub robot: RobotId,
+    pub ending: RobotEnd,
+    /// Ticks in which it answered its match.
+    pub answered: u64,
+    #[serde(flatten)]
+    pub datagrams: CarrierFigures,
+}
+
+/// Why a robot in a process of its own ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RobotEnd {
+    /// Its match is over.
+    MatchOver,
+    /// Nothing was heard of its match for long.
+    MatchGone,
+    /// It was told to stop.
+    Stopped,
+}
+
+/// What a robot has waited for.
+enum Turn {
+    Sensors(SocketAddr, Box<Sensors>),
+    End(RobotEnd),
+}
+
+impl RobotProcess {
+    /// A robot of a match, at this address.
+    ///
+    /// # Errors
+    /// If the address cannot be bound.
+    pub fn open(plan: &MatchPlan, id: RobotId, bind: SocketAddr) -> Result<RobotProcess, WireError> {
+        let carrier = UdpCarrier::of(BTreeMap::from([(id, UdpConn::bind(bind)?)]));
+        let (app, entity) = mind(plan, id, carrier);
+        Ok(RobotProcess {
+            app,
+            plan: plan.clone(),
+            id,
+            entity,
+            // Not those of the match, of which the other side may think differently.
+            assembly: Assembly::new(Limits::default()),
+            // Commands count from far away, since they come from the same entity as messages to the team.
+            counter: unused_number().wrapping_add(1 << 31),
+            introduction: None,
+            heard: Instant::now(),
+            answered: 0,
+        })
+    }
+
+    /// Plays until the match is over, or nothing has been heard of it for as long as `patience`, or `stops` says so.
+    ///
+    /// # Errors
+    /// If no match comes, or one to which the robot does not belong.
+    pub fn play(&mut self, patience: Duration, stops: &dyn Fn() -> bool) -> Result<RobotReport, WireError> {
+        self.heard = Instant::now();
+        let ending = loop {
+            match self.wait(patience, stops)? {
+                Turn::End(ending) => break ending,
+                Turn::Sensors(_, sensors) if sensors.orders.state == RobotState::Finished => {
+                    break RobotEnd::MatchOver;
+                }
+                Turn::Sensors(from, sensors) => {
+                    self.feel(&sensors);
+                    let world = self.app.world_mut();
+                    world.run_schedule(Tick);
+                    world.clear_trackers();
+                    self.answered += 1;
+                    self.answer(from, sensors.tick);
+                }
+            }
+        };
+        self.drain();
+        let datagrams = self.app.world().resource::<UdpCarrier>().figures;
+        Ok(RobotReport { robot: self.id, ending, answered: self.answered, datagrams })
+    }
+
+    /// The next sensors. What team mates say meanwhile waits for the tick.
+    fn wait(&mut self, patience: Duration, stops: &dyn Fn() -> bool) -> Result<Turn, WireError> {
+        loop {
+            if stops() {
+                return Ok(Turn::End(RobotEnd::Stopped));
+            }
+            let left = patience.saturating_sub(self.heard.elapsed());
+            if left.is_zero() {
+                return self.give_up(patience);
+            }
+            let Some((from, datagram)) = self.receive(left.min(LOOK)) else { continue };
+            match self.note(from, &datagram) {
+                Some((HOST, _)) => {
+                    if let Some(sensors) = self.hear_match(from, &datagram)? {
+                        return Ok(Turn::Sensors(from, sensors));
+                    }
+                }
+                Some(_) => {
+                    let mut incoming = self.app.world_mut().resource_mut::<Incoming>();
+                    if incoming.0.len() < TURN {
+                        incoming.0.push((self.id, datagram.into()));
+                    }
+                }
+                None => {}
+            }
+        }
+    }
+
+    fn give_up(&self, patience: Duration) -> Result<Turn, WireError> {
+        if self.introduction.is_some() {
+            return Ok(Turn::End(RobotEnd::MatchGone));
+        }
+        let directory = &self.app.world().resource::<Addresses>().0;
+        let address = directory.address_of(HOST).ok_or(WireError::NoAddress(HOST))?;
+        Err(WireError::NoMatch { robot: self.id, address, patience })
+    }
+
+    fn note(&mut self, from: SocketAddr, datagram: &[u8]) -> Option<(Party, Header)> {
+        let world = self.app.world_mut();
+        let directory = world.resource::<Addresses>().0.clone();
+        world.resource_mut::<UdpCarrier>().note(from, datagram, &directory)
+    }
+
+    /// What a datagram of the match comes to: sensors, if it brings some of the match that has greeted the robot.
+    fn hear_match(&mut self, from: SocketAddr, datagram: &[u8]) -> Result<Option<Box<Sensors>>, WireError> {
+        let Ok(Some(message)) = self.assembly.accept(0, datagram) else { return Ok(None) };
+        if message.data_type == Introduction::TYPE
+            && let Some(there) = Introduction::unserialise(&message.data)
+        {
+            return self.meet(from, &there).map(|()| None);
+        }
+        if message.data_type == Sensors::TYPE
+            && let Some(sensors) = Sensors::unserialise(&message.data)
+        {
+            let known = self.introduction.as_ref().is_some_and(|known| known.session == sensors.session);
+            if known {
+                self.heard = Instant::now();
+            }
+            // Who was started in the midst of a match waits until it is greeted.
+            return Ok(Some(Box::new(sensors)).filter(|_| known));
+        }
+        let difference = "it says what no match of this version says".into();
+        Err(WireError::OtherMatch { robot: self.id, address: from, difference })
+    }
+
+    /// Introduces itself to a match that has introduced itself.
+    fn meet(&mut self, from: SocketAddr, there: &Introduction) -> Result<(), WireError> {
+        let here = Introduction::new(&self.plan, self.id, there.session);
+        if let Some(difference) = here.difference(there) {
+            for _ in 0..LAST_WORDS {
+                self.send(from, &here);
+            }
+            return Err(WireError::OtherMatch { robot: self.id, address: from, difference });
+        }
+        self.heard = Instant::now();
+        let is_new = self.introduction.as_ref().is_none_or(|known| known.session != there.session);
+        if is_new && self.answered > 0 {
+            self.begin_again();
+        }
+        self.send(from, &here);
+        self.introduction = Some(here);
+        Ok(())
+    }
+
+    /// Its match has begun from the beginning: so does the robot.
+    fn begin_again(&mut self) {
+        let Some(carrier) = self.app.world_mut().remove_resource::<UdpCarrier>() else { return };
+        (self.app, self.entity) = mind(&self.plan, self.id, carrier.renewed());
+        self.answered = 0;
+    }
+
+    fn receive(&mut self, patience: Duration) -> Option<(SocketAddr, Vec<u8>)> {
+        let mut carrier = self.app.world_mut().resource_mut::<UdpCarrier>();
+        let received = carrier.conn(self.id)?.wait(patience);
+        received.ok().flatten().map(|(from, bytes)| (from, bytes.to_vec()))
+    }
+
+    /// Counts what has arrived when the match is over. In lock-step nobody says anything more.
+    fn drain(&mut self) {
+        for _ in 0..TURN {
+            let Some((from, datagram)) = self.receive(Duration::ZERO) else { break };
+            self.note(from, &datagram);
+        }
+    }
+
+    fn feel(&mut self, sensors: &Sensors) {
+        let world = self.app.world_mut();
+        world.resource_mut::<Clock>().tick = sensors.tick;
+        let mut robot = world.entity_mut(self.entity);
+        robot.insert((Percepts { frame: sensors.frame.clone() }, Head { pan: sensors.pan }, sensors.orders));
+        if let Some(mut odometry) = robot.get_mut::<Odometry>() {
+            odometry.pose = sensors.odometry;
+            odometry.speed = sensors.speed;
+            odometry.turn_rate = sensors.turn_rate;
+            odometry.stalled_for = sensors.stalled_for;
+        }
+        if let Some(mut handling) = robot.get_mut::<Handling>() {
+            handling.grip =
+                if sensors.holds_ball { Grip::Holding { since: sensors.tick } } else { Grip::Open };
+        }
+        match sensors.orders.state {
+            RobotState::Penalised => robot.insert(OffPitch),
+            _ => robot.remove::<OffPitch>(),
+        };
+    }
+
+    fn answer(&mut self, to: SocketAddr, tick: u64) {
+        if let Some(command) = self.command(tick) {
+            self.send(to, &command);
+        }
+    }
+
+    fn send<T: Data>(&mut self, to: SocketAddr, data: &T) {
+        let datagrams = datagrams(data, party(self.id), HOST, &mut self.counter);
+        let mut carrier = self.app.world_mut().resource_mut::<UdpCarrier>();
+        let Some(conn) = carrier.conn(self.id) else { return };
+        for datagram in datagrams {
+            // A match that is gone is noticed by its silence.
+            let _ = conn.send(to, &datagram);
+        }
+    }
+
+    fn command(&mut self, tick: u64) -> Option<Command> {
+        let world = self.app.world();
+        let figures = world.resource::<UdpCarrier>().figures;
+        let robot = world.entity(self.entity);
+        let activity = robot.get::<Activity>()?;
+        let model = robot.get::<WorldModel>()?;
+        Some(Command {
+            session: self.introduction.as_ref()?.session,
+            tick,
+            steering: *robot.get::<SteeringIntent>()?,
+            kick: *robot.get::<KickIntent>()?,
+            head: *robot.get::<HeadIntent>()?,
+            role: robot.get::<Role>()?.0 as u8,
+            acting_as: activity.acting_as as u8,
+            state: activity.state as u16,
+            pose: model.pose,
+            ball: model.ball.map(|ball| ball.position),
+            datagrams: (figures.sent, figures.received),
+            said: world.resource::<MessageBudgets>().spent(self.id.team).counted,
+        })
+    }
+}
+
+/// A world with nothing but the mind of a robot.
+fn mind(plan: &MatchPlan, id: RobotId, carrier: UdpCarrier) -> (App, Entity) {
+    let mut app = App::new();
+    app.add_plugins(crate::mind);
+    app.finish();
+    app.cleanup();
+    let entity = start_mind(app.world_mut(), plan, id);
+    app.insert_resource(carrier);
+    // The match keeps the team's budget; the robot tells it what there is to count.
+    app.insert_resource(MessageBudgets::counting(0, 0));
+    if let Some(mut tcm) = app.world_mut().get_mut::<Tcm>(entity) {
+        tcm.count_from(unused_number());
+    }
+    (app, entity)
+}

@@ -1,0 +1,37 @@
+//! Solid bodies do not share a place: how deep the ball has sunk into robots and walls.
+
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::RapierRigidBodyHandle;
+use serde::Serialize;
+
+use super::Record;
+use crate::world::ball::Ball;
+use crate::world::physics::Overlaps;
+
+/// How far a match was from keeping the ball out of robots and walls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BallOverlap {
+    /// How often, once for each body and tick, the ball was deeper than [`TOLERANCE`] in a body.
+    pub body_ticks: u64,
+    /// The deepest of all, m.
+    pub deepest: f32,
+}
+
+/// The contacts of the physics are springs; a ball may press them in so far, m.
+pub const TOLERANCE: f32 = 0.002;
+
+impl BallOverlap {
+    fn add(&mut self, depth: f32) {
+        self.body_ticks += u64::from(depth > TOLERANCE);
+        self.deepest = self.deepest.max(depth);
+    }
+}
+
+pub(super) fn watch_overlaps(
+    overlaps: Overlaps,
+    ball: Single<(&Ball, &RapierRigidBodyHandle)>,
+    mut record: ResMut<Record>,
+) {
+    let (ball, handle) = *ball;
+    overlaps.of_ball(handle, ball.kind.radius).for_each(|depth| record.overlap.add(depth));
+}

@@ -1,0 +1,35 @@
+//! Requests that concern the radio.
+
+use bevy::prelude::*;
+
+use super::requests::{Request, Requests, Weather};
+use crate::comms::radio::{Channel, Conditions, FaultRules};
+use crate::data::Bound;
+
+pub(super) fn change_weather(
+    requests: Res<Requests>,
+    mut channel: ResMut<Channel>,
+    mut conditions: ResMut<Conditions>,
+    mut faults: ResMut<FaultRules>,
+) {
+    for request in requests.iter() {
+        let Request::Air(weather) = request else { continue };
+        match weather {
+            Weather::Change(radio) if radio.fault().is_some() => {}
+            Weather::Change(radio) => channel.set_radio(radio.clone()),
+            Weather::ExtraLoss(share) => conditions.extra_loss = Bound::SHARE.clamp(*share),
+            Weather::ExtraDelay(seconds) => conditions.extra_delay = Bound::DELAY.clamp(*seconds),
+            Weather::Jam(jammed) => conditions.jammed = *jammed,
+            Weather::CutOff(robot) => {
+                conditions.cut_off.insert(*robot);
+            }
+            Weather::Reconnect(robot) => {
+                conditions.cut_off.remove(robot);
+            }
+            Weather::Part(partition) => conditions.partitions.push(partition.clone()),
+            Weather::Heal => conditions.partitions.clear(),
+            Weather::Fault(rule) if rule.fault().is_some() => {}
+            Weather::Fault(rule) => faults.add(rule.clone()),
+        }
+    }
+}

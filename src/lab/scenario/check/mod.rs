@@ -1,0 +1,372 @@
+//! From a scenario file to a scenario: looks every name up and checks every number. The first fault is reported with its
+//! place in the file.
+
+mod expectations;
+mod places;
+#[cfg(test)]
+mod tests;
+
+use bevy::prelude::Vec2;
+
+use super::condition::Expectation;
+use super::event::{Dependency, Event, TimedEvent};
+use super::file::{Places, PlayerFile, Referee, ScenarioFile, SideFile};
+use super::watch::ticks;
+use crate::comms::radio::FaultRule;
+use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
+use crate::geometry::Pose;
+use crate::ids::{RobotId, Team};
+use crate::pitch::Pitch;
+use crate::rng::LARGEST_SEED;
+use crate::robot::RobotKind;
+use crate::world::ball::BallKind;
+
+type Result<T> = std::result::Result<T, DataError>;
+
+/// A scenario that can be played: every name is known, every number is sound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    pub name: String,
+    pub source: String,
+    pub description: String,
+    /// The file's name.
+    pub game: String,
+    /// The file's name.
+    pub radio: String,
+    pub seeds: Vec<u64>,
+    /// With how many of the seeds it may fail, at each place of the ball.
+    pub may_fail: usize,
+    pub seconds: f32,
+    pub referee: Referee,
+    /// Home first.
+    pub sides: [Option<Side>; 2],
+    /// Where the ball starts, in the pitch frame: one run for each, with each seed.
+    pub places: Vec<Vec2>,
+    /// Of the ball at the start, m/s in the pitch frame.
+    pub velocity: Vec2,
+    pub faults: Vec<FaultRule>,
+    /// In the order of their times.
+    pub script: Vec<TimedEvent>,
+    pub expect: Vec<Expectation>,
+    pub depends_on: Option<Dependency>,
+}
+
+impl Scenario {
+    /// How many ticks of `dt` seconds it takes.
+    pub fn ticks(&self, dt: f32) -> u64 {
+        ticks(self.seconds, dt)
+    }
+
+    /// Where the ball starts in the first run.
+    pub fn first_place(&self) -> Vec2 {
+        self.places.first().copied().unwrap_or_default()
+    }
+
+    /// All robots that take part, in order.
+    pub fn players(&self) -> impl Iterator<Item = &Player> {
+        self.sides.iter().flatten().flat_map(|side| &side.players)
+    }
+}
+
+/// One side: names of files, and the robots that take part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Side {
+    pub strategy: String,
+    pub robot: String,
+    pub sensing: String,
+    /// In the order of their numbers.
+    pub players: Vec<Player>,
+}
+
+/// A robot that takes part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Player {
+    pub id: RobotId,
+    /// In the pitch frame.
+    pub pose: Pose,
+    /// The strategy's role for its number if not given.
+    pub role: Option<String>,
+    /// Whether it starts switched on.
+    pub on: bool,
+}
+
+/// What the files that a scenario names hold.
+#[derive(Clone, Debug)]
+pub struct Known<'a> {
+    pub pitch: &'a Pitch,
+    pub ball: &'a BallKind,
+    /// Home first; empty for a side that does not play.
+    pub teams: [KnownTeam<'a>; 2],
+    /// The names of all radios.
+    pub radios: Vec<String>,
+}
+
+/// What a strategy holds.
+#[derive(Clone, Debug, Default)]
+pub struct KnownTeam<'a> {
+    /// How many robots it is for.
+    pub players: usize,
+    /// `None` for a side that does not play.
+    pub kind: Option<&'a RobotKind>,
+    pub roles: Vec<&'a str>,
+    /// The states of all its machines.
+    pub activities: Vec<&'a str>,
+}
+
+/// Checks a scenario file.
+///
+/// # Errors
+/// The first fault, with its line and field.
+pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scenario> {
+    let mut checker = Checker { source, known, seconds: file.seconds, robots: Vec::new() };
+    let root = Field::root();
+    if file.name.trim().is_empty() {
+        return checker.fault(&root.key("name"), "must say what the scenario shows");
+    }
+    source.within(&root.key("seconds"), file.seconds, Bound::SECONDS.positive())?;
+    let seeds = checker.seeds(file.seeds.to_vec(), &root.key("seeds"))?;
+    let may_fail = usize::from(file.may_fail);
+    if may_fail >= seeds.len() {
+        let message = format!("must be less than the number of seeds, {}", seeds.len());
+        return checker.fault(&root.key("may_fail"), message);
+    }
+    if !known.radios.contains(&file.radio) {
+        return checker.fault(&root.key("radio"), no_such("radio", &file.radio, &known.radios));
+    }
+    let home = checker.side(Team::Home, &file.home, &root.key("home"))?;
+    let away = match &file.away {
+        Some(away) => Some(checker.side(Team::Away, away, &root.key("away"))?),
+        None => None,
+    };
+    let places = checker.places(&file.ball.at, &root.key("ball").key("at"))?;
+    source.vector_within(&root.key("ball").key("velocity"), file.ball.velocity, Bound::VELOCITY)?;
+    checker.stand_apart(file, &places)?;
+    for (i, rule) in file.faults.iter().enumerate() {
+        checker.rule(rule, &root.key("faults").index(i))?;
+    }
+    for (i, event) in file.script.iter().enumerate() {
+        checker.event(event, &root.key("script").index(i))?;
+    }
+    if file.expect.is_empty() {
+        return checker.fault(&root.key("expect"), "a scenario that expects nothing cannot fail");
+    }
+    for (i, expectation) in file.expect.iter().enumerate() {
+        checker.expectation(expectation, &root.key("expect").index(i))?;
+    }
+    let mut script = file.script.clone();
+    script.sort_by(|a, b| a.at.total_cmp(&b.at));
+    Ok(Scenario {
+        name: file.name.clone(),
+        source: file.source.clone(),
+        description: file.description.clone(),
+        game: file.game.clone(),
+        radio: file.radio.clone(),
+        seeds,
+        may_fail,
+        seconds: file.seconds,
+        referee: file.referee,
+        sides: [Some(home), away],
+        places,
+        velocity: file.ball.velocity,
+        faults: file.faults.clone(),
+        script,
+        expect: file.expect.clone(),
+        depends_on: file.depends_on,
+    })
+}
+
+/// Seeds of a scenario.
+const MOST_SEEDS: usize = 10_000;
+/// Places of the ball in a scenario.
+const MOST_PLACES: usize = 10_000;
+
+struct Checker<'a> {
+    source: &'a Source,
+    known: &'a Known<'a>,
+    /// How long the scenario takes.
+    seconds: f32,
+    /// Those that take part, as far as the file has been read.
+    robots: Vec<RobotId>,
+}
+
+impl Checker<'_> {
+    fn fault<T>(&self, at: &Field, message: impl Into<String>) -> Result<T> {
+        Err(self.source.error_at(at, message))
+    }
+
+    fn on_pitch(&self, point: Vec2, at: &Field) -> Result<()> {
+        self.source.vector_within(at, point, Bound::PLACE)?;
+        if self.known.pitch.holds(point, 0.0) {
+            return Ok(());
+        }
+        self.fault(at, format!("({}, {}) is not on the pitch", point.x, point.y))
+    }
+
+    /// A time within the scenario.
+    fn time(&self, time: f32, at: &Field) -> Result<()> {
+        self.source.within(at, time, Bound::SECONDS)?;
+        if time <= self.seconds {
+            return Ok(());
+        }
+        self.fault(at, format!("{time} s is after the end, which is at {} s", self.seconds))
+    }
+
+    fn robot(&self, robot: RobotId, at: &Field) -> Result<()> {
+        if self.robots.contains(&robot) {
+            return Ok(());
+        }
+        let mut known = self.robots.clone();
+        known.sort_unstable();
+        self.fault(at, no_such("robot", &robot.to_string(), known.iter().map(RobotId::to_string)))
+    }
+
+    fn maybe_robot(&self, robot: Option<RobotId>, at: &Field) -> Result<()> {
+        robot.map_or(Ok(()), |robot| self.robot(robot, at))
+    }
+
+    fn role(&self, team: Team, role: &str, at: &Field) -> Result<()> {
+        let roles = &self.known.teams[team.index()].roles;
+        if roles.contains(&role) { Ok(()) } else { self.fault(at, no_such("role", role, roles)) }
+    }
+
+    fn seeds(&self, seeds: Vec<u64>, at: &Field) -> Result<Vec<u64>> {
+        if let Some(message) = count_fault(seeds.len(), 1..=MOST_SEEDS) {
+            return self.fault(at, format!("the number of seeds {message}"));
+        }
+        if let Some(i) = seeds.iter().position(|seed| *seed > LARGEST_SEED) {
+            return self.fault(&at.index(i), format!("must be at most {LARGEST_SEED}, not {}", seeds[i]));
+        }
+        match seeds.iter().enumerate().find(|(i, seed)| seeds[..*i].contains(seed)) {
+            Some((i, seed)) => self.fault(&at.index(i), format!("the seed {seed} is given twice")),
+            None => Ok(seeds),
+        }
+    }
+
+    fn places(&self, places: &Places, at: &Field) -> Result<Vec<Vec2>> {
+        if let Some(message) = count_fault(places.count(), 1..=MOST_PLACES) {
+            return self.fault(at, format!("the number of places {message}"));
+        }
+        let known = places.to_vec();
+        for (i, place) in known.iter().enumerate() {
+            self.on_pitch(*place, at)?;
+            if known[..i].contains(place) {
+                return self.fault(at, format!("({}, {}) is given twice", place.x, place.y));
+            }
+        }
+        Ok(known)
+    }
+
+    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Side> {
+        let at = at.key("players");
+        if side.players.is_empty() {
+            return self.fault(&at, "needs at least one robot");
+        }
+        let players = side.players.iter().enumerate();
+        let players = players.map(|(i, player)| self.player(team, player, &at.index(i)));
+        let mut players = players.collect::<Result<Vec<_>>>()?;
+        players.sort_by_key(|player| player.id);
+        let SideFile { strategy, robot, sensing, .. } = side.clone();
+        Ok(Side { strategy, robot, sensing, players })
+    }
+
+    fn player(&mut self, team: Team, player: &PlayerFile, at: &Field) -> Result<Player> {
+        let id = RobotId::new(team, player.number);
+        let players = self.known.teams[team.index()].players;
+        if usize::from(player.number) >= players {
+            let known = (0..players).map(|number| number.to_string());
+            return self
+                .fault(&at.key("number"), no_such("player with number", &player.number.to_string(), known));
+        }
+        if self.robots.contains(&id) {
+            return self.fault(&at.key("number"), format!("{id} is given twice"));
+        }
+        self.on_pitch(player.at, &at.key("at"))?;
+        self.source.within(&at.key("facing"), player.facing, Bound::HEADING)?;
+        if let Some(role) = &player.role {
+            self.role(team, role, &at.key("role"))?;
+        }
+        self.robots.push(id);
+        let pose = Pose { position: player.at, heading: player.facing.to_radians() };
+        Ok(Player { id, pose, role: player.role.clone(), on: !player.off })
+    }
+
+    fn rule(&self, rule: &FaultRule, at: &Field) -> Result<()> {
+        self.maybe_robot(rule.from, &at.key("from"))?;
+        self.maybe_robot(rule.to, &at.key("to"))?;
+        match rule.fault() {
+            Some((field, message)) => self.fault(&at.dotted(&field), message),
+            None => Ok(()),
+        }
+    }
+
+    fn event(&self, event: &TimedEvent, at: &Field) -> Result<()> {
+        self.time(event.at, &at.key("at"))?;
+        let at = at.key("what");
+        match &event.what {
+            Event::Crash(robot) => self.robot(*robot, &at.key("Crash")),
+            Event::Penalise(robot) => self.robot(*robot, &at.key("Penalise")),
+            Event::Freeze(robot) => self.robot(*robot, &at.key("Freeze")),
+            Event::Deaf(robot) => self.robot(*robot, &at.key("Deaf")),
+            Event::Mute(robot) => self.robot(*robot, &at.key("Mute")),
+            Event::CutOff(robot) => self.robot(*robot, &at.key("CutOff")),
+            Event::Reconnect(robot) => self.robot(*robot, &at.key("Reconnect")),
+            Event::Revive { robot, .. } => self.robot(*robot, &at.key("Revive").key("robot")),
+            Event::Partition(one, other) => self.partition(one, other, &at.key("Partition")),
+            Event::Heal | Event::Jam(_) => Ok(()),
+            Event::Radio(name) if self.known.radios.contains(name) => Ok(()),
+            Event::Radio(name) => self.fault(&at.key("Radio"), no_such("radio", name, &self.known.radios)),
+            Event::Ball { at: place, velocity } => {
+                self.on_pitch(*place, &at.key("Ball").key("at"))?;
+                self.source.vector_within(&at.key("Ball").key("velocity"), *velocity, Bound::VELOCITY)
+            }
+            Event::Push { robot, by } => {
+                self.robot(*robot, &at.key("Push").key("robot"))?;
+                self.source.vector_within(&at.key("Push").key("by"), *by, Bound::VELOCITY)
+            }
+            Event::Kidnap { robot, to, facing } => {
+                let at = at.key("Kidnap");
+                self.robot(*robot, &at.key("robot"))?;
+                self.on_pitch(*to, &at.key("to"))?;
+                self.source.within(&at.key("facing"), *facing, Bound::HEADING)
+            }
+            Event::InitiateSwap { robot, roles } => {
+                self.robot(*robot, &at.key("InitiateSwap").key("robot"))?;
+                self.swap(robot.team, roles, &at.key("InitiateSwap").key("roles"))
+            }
+        }
+    }
+
+    fn partition(&self, one: &[RobotId], other: &[RobotId], at: &Field) -> Result<()> {
+        for (side, group) in [one, other].into_iter().enumerate() {
+            if group.is_empty() {
+                return self.fault(&at.index(side), "needs at least one robot");
+            }
+            for (i, robot) in group.iter().enumerate() {
+                self.robot(*robot, &at.index(side).index(i))?;
+            }
+            self.source.distinct(&at.index(side), group)?;
+        }
+        match other.iter().position(|robot| one.contains(robot)) {
+            Some(i) => self.fault(&at.index(1).index(i), format!("{} cannot be on both sides", other[i])),
+            None => Ok(()),
+        }
+    }
+
+    /// A swap takes and gives the same roles, each once.
+    fn swap(&self, team: Team, roles: &[(String, String)], at: &Field) -> Result<()> {
+        for (i, (from, to)) in roles.iter().enumerate() {
+            self.role(team, from, &at.index(i).index(0))?;
+            self.role(team, to, &at.index(i).index(1))?;
+        }
+        let sorted = |side: fn(&(String, String)) -> &String| {
+            let mut names: Vec<&String> = roles.iter().map(side).collect();
+            names.sort();
+            names
+        };
+        let (from, to) = (sorted(|pair| &pair.0), sorted(|pair| &pair.1));
+        if roles.is_empty() || from != to || from.windows(2).any(|pair| pair[0] == pair[1]) {
+            return self.fault(at, "must take and give the same roles, each once");
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,202 @@
+//! The words of a scenario's expectations: what must hold, and when.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::comms::messages::MessageKind;
+use crate::geometry::Zone;
+use crate::ids::{RobotId, Team};
+
+/// What a scenario must show. Times are seconds since it began; a tick on a limit counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Expectation {
+    /// Holds at some tick, at most `within` seconds after `after`.
+    Eventually {
+        what: Condition,
+        within: f32,
+        #[serde(default)]
+        after: f32,
+        /// Why, for people.
+        #[serde(default)]
+        because: String,
+    },
+    /// Holds at every tick.
+    Always {
+        what: Condition,
+        #[serde(default)]
+        from: f32,
+        /// The end of the scenario if not given.
+        #[serde(default)]
+        until: Option<f32>,
+        #[serde(default)]
+        because: String,
+    },
+    /// Holds at no tick.
+    Never {
+        what: Condition,
+        #[serde(default)]
+        from: f32,
+        /// The end of the scenario if not given.
+        #[serde(default)]
+        until: Option<f32>,
+        #[serde(default)]
+        because: String,
+    },
+    /// Holds at the last tick.
+    Finally {
+        what: Condition,
+        #[serde(default)]
+        because: String,
+    },
+}
+
+impl Expectation {
+    pub fn what(&self) -> &Condition {
+        match self {
+            Expectation::Eventually { what, .. }
+            | Expectation::Always { what, .. }
+            | Expectation::Never { what, .. }
+            | Expectation::Finally { what, .. } => what,
+        }
+    }
+
+    pub fn because(&self) -> &str {
+        match self {
+            Expectation::Eventually { because, .. }
+            | Expectation::Always { because, .. }
+            | Expectation::Never { because, .. }
+            | Expectation::Finally { because, .. } => because,
+        }
+    }
+}
+
+/// A statement about one tick.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Condition {
+    RoleOf(RobotId, String),
+    /// The sub-role of a robot whose role acts as others by turns; the role itself for all others.
+    ActingAs(RobotId, String),
+    /// The robot's state is one of these.
+    ActivityOf(RobotId, Vec<String>),
+    /// The robot itself claims the ball.
+    Claims(RobotId),
+    /// Every team mate that is switched on, or only the one named, believes that the robot holds the ball.
+    Holder {
+        robot: RobotId,
+        #[serde(default)]
+        seen_by: Option<RobotId>,
+    },
+    /// The robot has given its lock for a role swap, to anybody or to the one named.
+    Locked {
+        robot: RobotId,
+        #[serde(default)]
+        by: Option<RobotId>,
+    },
+    /// The robot has booked the ball and goes for it.
+    Goes(RobotId),
+    /// How many robots of the team go for the ball that they have booked.
+    Going {
+        team: Team,
+        #[serde(default)]
+        at_least: Option<u32>,
+        #[serde(default)]
+        at_most: Option<u32>,
+    },
+    /// Every team mate that is switched on, or only the one named, believes that the robot has booked the ball.
+    Booker {
+        robot: RobotId,
+        #[serde(default)]
+        seen_by: Option<RobotId>,
+    },
+    /// Metres between the centres of two things.
+    Distance {
+        from: Thing,
+        to: Thing,
+        #[serde(default)]
+        below: Option<f32>,
+        #[serde(default)]
+        above: Option<f32>,
+    },
+    /// m/s of the ball or a robot.
+    Speed {
+        of: Thing,
+        #[serde(default)]
+        below: Option<f32>,
+        #[serde(default)]
+        above: Option<f32>,
+    },
+    InZone {
+        what: Thing,
+        zone: Area,
+    },
+    Sent(Packets),
+    Delivered(Packets),
+    Goals {
+        team: Team,
+        #[serde(default)]
+        at_least: Option<u32>,
+        #[serde(default)]
+        at_most: Option<u32>,
+    },
+    /// No two robots of the team that are switched on have the same role.
+    RolesDistinct(Team),
+    /// The roles of the robots named by their numbers.
+    RolesAre(Team, BTreeMap<u8, String>),
+    /// All robots of the team that are switched on know the same configuration.
+    ConfigurationsAgree(Team),
+    All(Vec<Condition>),
+    Any(Vec<Condition>),
+    Not(Box<Condition>),
+    /// Has held for so long without a break.
+    For {
+        seconds: f32,
+        what: Box<Condition>,
+    },
+}
+
+/// Packets of one kind: a message to three team mates is three packets.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Packets {
+    pub kind: MessageKind,
+    #[serde(default)]
+    pub from: Option<RobotId>,
+    #[serde(default)]
+    pub to: Option<RobotId>,
+    #[serde(default = "one")]
+    pub at_least: u64,
+    /// Counts only what came later than this, s.
+    #[serde(default)]
+    pub since: f32,
+}
+
+fn one() -> u64 {
+    1
+}
+
+/// Something that is somewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Thing {
+    Ball,
+    /// The place where the ball was at the start.
+    BallAtStart,
+    Robot(RobotId),
+    /// A point in the pitch frame, m.
+    At(f32, f32),
+    /// The centre of the goal mouth that the team defends when it attacks as at the start.
+    Goal(Team),
+}
+
+/// A part of the pitch. Home's is in the west, where it defends at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Area {
+    PenaltyArea(Team),
+    Half(Team),
+    /// Behind the goal line.
+    Goal(Team),
+    /// In the pitch frame.
+    Rectangle(Zone),
+}

@@ -1,0 +1,270 @@
+//! A scenario as it is written: the serde types of `assets/scenarios/*.ron`, not yet checked.
+
+use bevy::prelude::Vec2;
+use serde::{Deserialize, Serialize};
+
+use super::condition::Expectation;
+use super::event::{Dependency, TimedEvent};
+use crate::comms::radio::FaultRule;
+
+/// A whole scenario file. Points and velocities are in the pitch frame, which is home's team frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScenarioFile {
+    /// What the scenario shows, as a sentence.
+    pub name: String,
+    /// Where the claim comes from, such as "Hammerheads 2001, section VI-B".
+    pub source: String,
+    #[serde(default)]
+    pub description: String,
+    /// The match whose pitch, ball and rules it has, by its file's name.
+    #[serde(default = "friendly")]
+    pub game: String,
+    /// Another pitch than that match's, by its file's name.
+    #[serde(default)]
+    pub pitch: Option<String>,
+    /// A radio, by its file's name.
+    #[serde(default = "perfect")]
+    pub radio: String,
+    #[serde(default)]
+    pub seeds: Seeds,
+    /// With how many of the seeds it may fail, at each place of the ball.
+    #[serde(default)]
+    pub may_fail: u16,
+    /// How long it takes.
+    pub seconds: f32,
+    #[serde(default)]
+    pub referee: Referee,
+    pub home: SideFile,
+    #[serde(default)]
+    pub away: Option<SideFile>,
+    pub ball: BallFile,
+    #[serde(default)]
+    pub faults: Vec<FaultRule>,
+    #[serde(default)]
+    pub script: Vec<TimedEvent>,
+    pub expect: Vec<Expectation>,
+    /// What the scenario is about: without it, it must fail.
+    #[serde(default)]
+    pub depends_on: Option<Dependency>,
+}
+
+fn friendly() -> String {
+    "friendly".to_owned()
+}
+
+fn perfect() -> String {
+    "perfect".to_owned()
+}
+
+/// The seeds that a scenario is played with: `10` for 1 to 10, or a list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a number of seeds or a list of seeds")]
+pub enum Seeds {
+    Count(u16),
+    List(Vec<u64>),
+}
+
+impl Default for Seeds {
+    fn default() -> Seeds {
+        Seeds::Count(10)
+    }
+}
+
+impl Seeds {
+    pub fn to_vec(&self) -> Vec<u64> {
+        match self {
+            Seeds::Count(count) => (1..=u64::from(*count)).collect(),
+            Seeds::List(seeds) => seeds.clone(),
+        }
+    }
+}
+
+/// Who sees to the rules.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Referee {
+    /// The ball is in play from the first tick on, and nobody whistles.
+    #[default]
+    Nobody,
+    /// All rules of a match.
+    Whole,
+}
+
+/// One side of a scenario: names of files, and the robots that take part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SideFile {
+    pub strategy: String,
+    #[serde(default = "cye")]
+    pub robot: String,
+    #[serde(default = "perfect")]
+    pub sensing: String,
+    pub players: Vec<PlayerFile>,
+}
+
+fn cye() -> String {
+    "cye".to_owned()
+}
+
+/// A robot that takes part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlayerFile {
+    pub number: u8,
+    pub at: Vec2,
+    /// Degrees, counter-clockwise from east.
+    #[serde(default)]
+    pub facing: f32,
+    /// The strategy's role for that number if not given.
+    #[serde(default)]
+    pub role: Option<String>,
+    /// Stands on the pitch switched off.
+    #[serde(default)]
+    pub off: bool,
+}
+
+/// Where the ball starts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallFile {
+    pub at: Places,
+    /// m/s
+    #[serde(default)]
+    pub velocity: Vec2,
+}
+
+/// One place, or the crossings of a grid: the scenario is played at each of them, with each of its seeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a place, such as (1, 2), or a grid, such as (x: [0, 1], y: [-2, 2])")]
+pub enum Places {
+    One(Vec2),
+    Grid { x: Vec<f32>, y: Vec<f32> },
+}
+
+impl Places {
+    pub fn count(&self) -> usize {
+        match self {
+            Places::One(_) => 1,
+            Places::Grid { x, y } => x.len().saturating_mul(y.len()),
+        }
+    }
+
+    /// Column by column from the grid's first x.
+    pub fn to_vec(&self) -> Vec<Vec2> {
+        match self {
+            Places::One(place) => vec![*place],
+            Places::Grid { x, y } => x.iter().flat_map(|x| y.iter().map(|y| Vec2::new(*x, *y))).collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::stage::{EXAMPLE, example};
+    use super::super::{Area, Condition, Event, Expectation, Packets, Thing};
+    use super::*;
+    use crate::comms::messages::MessageKind;
+    use crate::data::{Source, ron_options};
+    use crate::geometry::Zone;
+    use crate::ids::{RobotId, Team};
+    use crate::robot::Recall;
+
+    fn home(number: u8) -> RobotId {
+        RobotId::new(Team::Home, number)
+    }
+
+    fn parsed<T: serde::de::DeserializeOwned>(text: &str) -> T {
+        Source::new("x.ron", text).parse().unwrap()
+    }
+
+    fn trouble(text: &str) -> String {
+        Source::new("x.ron", text).parse::<ScenarioFile>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn what_is_left_out_takes_its_usual_value() {
+        let text = r#"(name: "a", source: "b", seconds: 3, ball: (at: (0, 0)), expect: [],
+            home: (strategy: "s", players: [(number: 1, at: (1, 2))]))"#;
+        let file: ScenarioFile = parsed(text);
+        assert_eq!((file.game.as_str(), file.radio.as_str()), ("friendly", "perfect"));
+        assert_eq!((file.home.robot.as_str(), file.home.sensing.as_str()), ("cye", "perfect"));
+        assert_eq!(file.seeds.to_vec(), (1..=10).collect::<Vec<_>>());
+        assert_eq!((file.referee, file.depends_on, file.away), (Referee::Nobody, None, None));
+        let at = Vec2::new(1.0, 2.0);
+        let player = PlayerFile { number: 1, at, facing: 0.0, role: None, off: false };
+        assert_eq!(file.home.players, [player]);
+        assert_eq!(file.ball.velocity, Vec2::ZERO);
+    }
+
+    #[test]
+    fn seeds_are_a_number_or_a_list() {
+        assert_eq!(parsed::<Seeds>("3").to_vec(), [1, 2, 3]);
+        assert_eq!(parsed::<Seeds>("[7, 11]").to_vec(), [7, 11]);
+        let text = EXAMPLE.replace("seeds: 3", "seeds: -3");
+        assert!(trouble(&text).ends_with("seeds: expected a number of seeds or a list of seeds"));
+    }
+
+    #[test]
+    fn the_ball_is_at_one_place_or_at_the_crossings_of_a_grid() {
+        assert_eq!(parsed::<Places>("(1, -2)").to_vec(), [Vec2::new(1.0, -2.0)]);
+        let grid = parsed::<Places>("(x: [0, 1.5], y: [-2, 2])").to_vec();
+        let crossings = [(0.0, -2.0), (0.0, 2.0), (1.5, -2.0), (1.5, 2.0)];
+        assert_eq!(grid, crossings.map(|(x, y)| Vec2::new(x, y)));
+        let error = trouble(&EXAMPLE.replace("at: (-1.5, 0.5)", "at: (x: [0])"));
+        assert!(error.contains("ball.at: expected a place, such as (1, 2), or a grid"), "{error}");
+    }
+
+    #[test]
+    fn events_name_robots_as_people_do() {
+        assert_eq!(parsed::<Event>(r#"Crash("home 1")"#), Event::Crash(home(1)));
+        let partition = Event::Partition(vec![home(0)], vec![home(1), RobotId::new(Team::Away, 2)]);
+        assert_eq!(parsed::<Event>(r#"Partition(["home 0"], ["home 1", "away:2"])"#), partition);
+        let revival = Event::Revive { robot: home(1), memory: Recall::Lost };
+        assert_eq!(parsed::<Event>(r#"Revive(robot: "home 1", memory: Lost)"#), revival);
+        let ball = Event::Ball { at: Vec2::new(1.0, 0.0), velocity: Vec2::ZERO };
+        assert_eq!(parsed::<Event>("Ball(at: (1, 0))"), ball);
+    }
+
+    #[test]
+    fn conditions_are_written_without_superfluous_brackets() {
+        let text =
+            r#"Not(For(seconds: 2, what: Distance(from: Robot("home 1"), to: At(1, -2), below: 0.5)))"#;
+        let (from, to) = (Thing::Robot(home(1)), Thing::At(1.0, -2.0));
+        let what = Box::new(Condition::Distance { from, to, below: Some(0.5), above: None });
+        let condition = Condition::Not(Box::new(Condition::For { seconds: 2.0, what }));
+        assert_eq!(parsed::<Condition>(text), condition);
+
+        let zone = Area::Rectangle(Zone { min: Vec2::ZERO, max: Vec2::ONE });
+        let condition = Condition::InZone { what: Thing::Ball, zone };
+        assert_eq!(
+            parsed::<Condition>("InZone(what: Ball, zone: Rectangle(min: (0, 0), max: (1, 1)))"),
+            condition
+        );
+
+        let packets =
+            Packets { kind: MessageKind::Lock, from: Some(home(1)), to: None, at_least: 1, since: 0.0 };
+        assert_eq!(parsed::<Condition>(r#"Sent(kind: Lock, from: "home 1")"#), Condition::Sent(packets));
+
+        let roles = [(0, "goalie".to_owned()), (2, "forward".to_owned())].into();
+        let condition = Condition::RolesAre(Team::Home, roles);
+        assert_eq!(parsed::<Condition>(r#"RolesAre(Home, {0: "goalie", 2: "forward"})"#), condition);
+    }
+
+    #[test]
+    fn what_is_no_robot_is_reported_where_it_stands() {
+        let text = EXAMPLE.replace(r#"Crash("home 1")"#, r#"Crash("guest 1")"#);
+        let error = trouble(&text);
+        assert!(error.starts_with("x.ron:17:"), "{error}");
+        assert!(error.contains("script[0].what.Crash: `guest 1` is no robot"), "{error}");
+        let text = EXAMPLE.replace("within: 5", "within: 5, unless: 3");
+        assert!(trouble(&text).contains("there is no field `unless`; known: what, within"));
+    }
+
+    #[test]
+    fn a_scenario_that_is_written_reads_back() {
+        let file = example();
+        let text = ron_options().to_string_pretty(&file, ron::ser::PrettyConfig::default()).unwrap();
+        assert_eq!(parsed::<ScenarioFile>(&text), file);
+        assert!(matches!(&file.expect[0], Expectation::Eventually { within, .. } if *within == 5.0));
+    }
+}

@@ -1,0 +1,141 @@
+//! Plays a scenario headless and judges it.
+
+use std::hash::{BuildHasher, Hash};
+use std::time::Instant;
+
+use bevy::prelude::*;
+use xxhash_rust::xxh3::Xxh3DefaultBuilder;
+
+use super::check::Scenario;
+use super::event::Dependency;
+use super::judge::{Judge, Verdict};
+use super::plan::ScenarioPlan;
+use super::report::{Report, Run};
+use super::scene::{RobotScene, Scene};
+use crate::clock::Clock;
+use crate::comms::radio::MessageCounts;
+use crate::game::Match;
+use crate::geometry::{Pose, Twist};
+use crate::ids::RobotId;
+use crate::mind::behaviour::Activity;
+use crate::mind::teamwork::{Booking, Role, Standing, Swapping, TeamPicture};
+use crate::pitch::Pitch;
+use crate::robot::Robot;
+use crate::strategy::{Strategies, Strategy};
+use crate::world::ball::Ball;
+use crate::world::referee::MatchState;
+
+impl ScenarioPlan {
+    /// Plays the scenario with the ball at each of its places and with each of its seeds.
+    pub fn run(&self, without: Option<Dependency>) -> Report {
+        self.run_until(without, &|| false)
+    }
+
+    /// Plays the scenario with each of its seeds, or until it is to stop: then the run of that moment does not count.
+    pub fn run_until(&self, without: Option<Dependency>, stop: &dyn Fn() -> bool) -> Report {
+        let plan = without.map_or_else(|| self.clone(), |dependency| self.without(dependency));
+        let Scenario { places, seeds, .. } = &self.scenario;
+        let runs = places.iter().flat_map(|place| seeds.iter().map(|seed| (*place, *seed)));
+        let runs = runs.map_while(|(place, seed)| {
+            let start = Instant::now();
+            let verdict = plan.play_until(place, seed, stop)?;
+            Some(Run { place, seed, verdict, took: start.elapsed() })
+        });
+        let runs: Vec<Run> = runs.collect();
+        Report {
+            file: self.path.display().to_string(),
+            name: self.scenario.name.clone(),
+            without,
+            may_fail: self.scenario.may_fail,
+            interrupted: runs.len() < places.len() * seeds.len(),
+            runs,
+        }
+    }
+
+    /// Plays the scenario with the ball at one place and with one seed, until everything is decided.
+    pub fn play(&self, place: Vec2, seed: u64) -> Verdict {
+        self.play_until(place, seed, &|| false).unwrap_or_default()
+    }
+
+    /// As [`ScenarioPlan::play`]; `None` if it is to stop before.
+    fn play_until(&self, place: Vec2, seed: u64, stop: &dyn Fn() -> bool) -> Option<Verdict> {
+        let mut game = Match::new(&self.with_ball_at(place, seed));
+        let dt = game.clock().dt;
+        let mut judge = Judge::new(&self.scenario, place, dt);
+        for _ in 0..self.scenario.ticks(dt) {
+            if stop() {
+                return None;
+            }
+            game.tick();
+            observe(game.world_mut(), &mut judge);
+            if judge.is_decided() {
+                break;
+            }
+        }
+        Some(judge.verdict())
+    }
+}
+
+type Seen<'a> = (
+    &'a RobotId,
+    &'a Robot,
+    &'a Pose,
+    &'a Twist,
+    &'a Role,
+    &'a Activity,
+    &'a TeamPicture,
+    Option<&'a Swapping>,
+    Option<&'a Booking>,
+);
+
+/// Shows a judge the tick that is just over.
+pub fn observe(world: &mut World, judge: &mut Judge) {
+    let mut ball = world.query_filtered::<(&Pose, &Twist), With<Ball>>();
+    let mut robots = world.query::<Seen>();
+    let world = &*world;
+    let Ok((ball, motion)) = ball.single(world) else { return };
+    let strategies = world.resource::<Strategies>();
+    let mut scenes: Vec<RobotScene> =
+        robots.iter(world).map(|seen| robot_scene(seen, strategies.of(seen.0.team))).collect();
+    scenes.sort_unstable_by_key(|robot| robot.id);
+    judge.observe(&Scene {
+        tick: world.resource::<Clock>().tick,
+        pitch: world.resource::<Pitch>(),
+        ball: ball.position,
+        ball_velocity: motion.linear,
+        ball_at_start: judge.ball_at_start(),
+        robots: scenes,
+        score: world.resource::<MatchState>().score,
+        messages: world.resource::<MessageCounts>(),
+    });
+}
+
+fn robot_scene<'a>(
+    (id, robot, pose, twist, role, activity, picture, swapping, booking): Seen,
+    strategy: &'a Strategy,
+) -> RobotScene<'a> {
+    let configuration = swapping.and_then(|swapping| swapping.machine.configuration());
+    RobotScene {
+        id: *id,
+        pose: *pose,
+        speed: twist.linear.length(),
+        on: !robot.condition.crashed,
+        role: &strategy.roles[role.0].name,
+        acting_as: &strategy.roles[activity.acting_as].name,
+        activity: &strategy.state(activity.machine(strategy), activity.state).name,
+        claims: picture.has_ball,
+        holder: if picture.has_ball { Some(id.number) } else { picture.carrier.map(|(number, _)| number) },
+        goes: booking.is_some_and(|booking| booking.0.goes()),
+        booker: match picture.booking {
+            Standing::Own => Some(id.number),
+            Standing::Mate(number) => Some(number),
+            Standing::Free => None,
+        },
+        locked_by: swapping.and_then(|swapping| swapping.machine.lock()).map(|lock| lock.by),
+        configuration: configuration.map(fingerprint),
+    }
+}
+
+fn fingerprint(value: &impl Hash) -> u64 {
+    Xxh3DefaultBuilder.hash_one(value)
+}

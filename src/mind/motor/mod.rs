@@ -1,0 +1,178 @@
+//! The Motor stage: the assemblage of a robot's activity becomes a steering intent.
+//!
+//! Each schema turns beliefs into a vector, a weight beside it says how much it counts, and the assemblage combines them. The
+//! single contributions are kept for people to see.
+
+mod evaluate;
+mod ready;
+#[cfg(test)]
+mod tests;
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use evaluate::evaluate;
+use ready::walk_to_place;
+
+use crate::clock::Clock;
+use crate::geometry::{angle, wrap_angle};
+use crate::ids::RobotId;
+use crate::mind::behaviour::{Activity, Mind, perception};
+use crate::mind::perception::{Memory, Perception};
+use crate::mind::schemas::combine::{weighted_sum, winner_take_all};
+use crate::pitch::Pitch;
+use crate::rng::{Dice, Seed};
+use crate::robot::{OffPitch, RobotKind};
+use crate::schedule::{Tick, TickSystems};
+use crate::strategy::{Assemblage, Combination, State, Strategies, Turn};
+use crate::world::ball::Ball;
+use crate::world::handling::KickIntent;
+use crate::world::referee::RobotState;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(Tick, run_assemblages.in_set(TickSystems::Motor));
+}
+
+/// Where a robot wants to go. Headings are in the odometry's frame, so that the drive can follow them between decisions.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum SteeringIntent {
+    #[default]
+    Stop,
+    /// A heading in radians, and a share of the top speed from -1 to 1; 0 turns on the spot, negative drives in reverse.
+    /// Legs can walk along one heading and face another meanwhile; wheels cannot.
+    Steer { heading: f32, facing: f32, speed: f32 },
+    /// Turn on the spot, rad/s.
+    Spin(f32),
+}
+
+/// What each schema of the running assemblage wants, in the team frame, and what became of it.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct Contributions {
+    /// In the order of the assemblage's terms, unweighted.
+    pub vectors: Vec<Vec2>,
+    pub sum: Vec2,
+}
+
+/// The dice of a robot's noise schemas.
+#[derive(Component, Clone, Debug)]
+pub struct MotorDice(Dice);
+
+impl MotorDice {
+    pub fn new(seed: Seed, robot: RobotId) -> MotorDice {
+        MotorDice(Dice::new(seed, "motor", Some(robot)))
+    }
+}
+
+/// Sums shorter than this mean to stand still.
+const STANDSTILL: f32 = 0.05;
+/// Slowest that a robot with somewhere to go drives, as a share of its activity's speed.
+const CRAWL: f32 = 0.25;
+
+type Moved<'a> = (Mind, &'a Activity, Intents, &'a mut Contributions, &'a mut MotorDice);
+
+/// What a robot wants its motors to do.
+#[derive(QueryData)]
+#[query_data(mutable)]
+struct Intents {
+    steering: &'static mut SteeringIntent,
+    kick: &'static mut KickIntent,
+}
+
+fn run_assemblages(
+    clock: Res<Clock>,
+    pitch: Res<Pitch>,
+    strategies: Res<Strategies>,
+    ball: Single<&Ball>,
+    mut robots: Query<Moved, Without<OffPitch>>,
+) {
+    for (mut mind, activity, mut intents, mut contributions, mut dice) in &mut robots {
+        let wits = &mind.wits;
+        if !wits.robot.decides(&clock) {
+            continue;
+        }
+        let strategy = strategies.of(wits.id.team);
+        let senses = perception(wits, activity, strategy, (&clock, &pitch, &ball));
+        let state = strategy.state(activity.machine(strategy), activity.state);
+        let memory = &mut *mind.memory;
+        match state.assemblage {
+            Some(index) => {
+                combine(&strategy.assemblages[index], &senses, memory, &mut dice.0, &mut contributions);
+            }
+            None => {
+                contributions.vectors.clear();
+                contributions.sum = Vec2::ZERO;
+            }
+        }
+        if let (RobotState::Ready, Some(place)) = (wits.orders.state, wits.orders.place) {
+            contributions.vectors.clear();
+            *intents.kick = KickIntent::Nothing;
+            *intents.steering = walk_to_place(wits.model, place, wits.odometry.pose.heading);
+            continue;
+        }
+        *intents.kick = kick_of(state, &wits.robot.kind);
+        *intents.steering = intend(contributions.sum, state, &senses, memory, wits.odometry.pose.heading);
+    }
+}
+
+fn combine(
+    assemblage: &Assemblage,
+    senses: &Perception,
+    memory: &mut Memory,
+    dice: &mut Dice,
+    contributions: &mut Contributions,
+) {
+    contributions.vectors.clear();
+    for term in &assemblage.terms {
+        let vector = evaluate(&term.schema, senses, memory, dice).unwrap_or(Vec2::ZERO);
+        contributions.vectors.push(vector);
+    }
+    let weighted = (assemblage.terms.iter().zip(&contributions.vectors)).map(|(term, v)| (term.weight, *v));
+    contributions.sum = match assemblage.combination {
+        Combination::WeightedSum => weighted_sum(weighted),
+        Combination::WinnerTakeAll => winner_take_all(weighted),
+    };
+}
+
+/// What a state wants done to the ball, as far as a robot's kind can do it.
+fn kick_of(state: &State, kind: &RobotKind) -> KickIntent {
+    let index = |name: &String| kind.kicks.keys().position(|known| known == name);
+    match state.kicks.iter().find_map(index) {
+        Some(index) => KickIntent::Kick(index),
+        None if state.hold && kind.chin.is_some() => KickIntent::Hold,
+        None => KickIntent::Nothing,
+    }
+}
+
+/// From the vector of an assemblage to what the drive is told.
+fn intend(
+    sum: Vec2,
+    state: &State,
+    senses: &Perception,
+    memory: &mut Memory,
+    odometry_heading: f32,
+) -> SteeringIntent {
+    let turned =
+        |direction: Vec2| odometry_heading + wrap_angle(angle(direction) - senses.model.pose.heading);
+    let faced = match &state.turn {
+        Turn::Face(point) => senses.relative(point, memory).filter(|offset| *offset != Vec2::ZERO),
+        Turn::Stay | Turn::Spin(_) => None,
+    };
+    if sum.length() >= STANDSTILL {
+        let speed = state.speed * sum.length().clamp(CRAWL, 1.0);
+        let speed = if state.reverse { -speed } else { speed };
+        let heading = turned(if state.reverse { -sum } else { sum });
+        return SteeringIntent::Steer { heading, facing: faced.map_or(heading, turned), speed };
+    }
+    if state.assemblage.is_none() && state.reverse {
+        let heading = odometry_heading;
+        return SteeringIntent::Steer { heading, facing: heading, speed: -state.speed };
+    }
+    match &state.turn {
+        Turn::Spin(rate) => SteeringIntent::Spin(*rate),
+        Turn::Stay | Turn::Face(_) => faced.map_or(SteeringIntent::Stop, |offset| {
+            let heading = turned(offset);
+            SteeringIntent::Steer { heading, facing: heading, speed: 0.0 }
+        }),
+    }
+}

@@ -1,0 +1,147 @@
+//! For unit tests: a robot's situation with plain defaults, and strategies from a few lines of text.
+
+use bevy::prelude::*;
+
+use super::Perception;
+use crate::comms::radio::Radio;
+use crate::data::{AssetFolder, Source};
+use crate::geometry::{Pose, Zone};
+use crate::ids::Team;
+use crate::mind::teamwork::TeamPicture;
+use crate::mind::world_model::{BallBelief, MateBelief, RobotBelief, WorldModel};
+use crate::pitch::Pitch;
+use crate::protocol::role_swap::Assignment;
+use crate::robot::RobotKind;
+use crate::strategy::Strategy;
+use crate::strategy::teamwork::{Mechanism, Teamwork};
+use crate::world::ball::BallKind;
+
+/// What a home robot believes, and the rest of a [`Perception`]; change what a test is about.
+pub struct Situation {
+    pub model: WorldModel,
+    pub picture: TeamPicture,
+    pub teamwork: Teamwork,
+    pub pitch: Pitch,
+    pub now: f32,
+    pub ball_age: Option<f32>,
+    pub time_in_state: f32,
+    pub stalled_for: f32,
+}
+
+impl Situation {
+    pub const DANGER_ZONE: Zone = Zone { min: Vec2::new(-2.0, -1.0), max: Vec2::new(0.5, 1.0) };
+    pub const HOMEBASE: Vec2 = Vec2::new(-1.5, 0.25);
+    /// From the centre to the front, and the ball's radius, m.
+    pub const FRONT: f32 = 0.125;
+    pub const BALL_RADIUS: f32 = 0.125;
+
+    /// A robot at this place, m, that looks in this direction, degrees, and knows of nothing else.
+    pub fn at(x: f32, y: f32, degrees: f32) -> Situation {
+        Situation {
+            model: WorldModel::told(Pose::new(x, y, degrees.to_radians())),
+            picture: TeamPicture::of(Assignment::new([0, 1, 2, 3])),
+            teamwork: Teamwork::default(),
+            pitch: pitch(),
+            now: 0.0,
+            ball_age: None,
+            time_in_state: 0.0,
+            stalled_for: 0.0,
+        }
+    }
+
+    pub fn ball(self, x: f32, y: f32) -> Situation {
+        self.rolling_ball(x, y, Vec2::ZERO)
+    }
+
+    pub fn rolling_ball(mut self, x: f32, y: f32, velocity: Vec2) -> Situation {
+        self.model.ball = Some(BallBelief { position: Vec2::new(x, y), velocity, seen: 0 });
+        self
+    }
+
+    pub fn robot(mut self, team: Team, x: f32, y: f32) -> Situation {
+        self.model.robots.push(RobotBelief { team, position: Vec2::new(x, y), seen: 0 });
+        self
+    }
+
+    /// A team mate that has told where it is.
+    pub fn mate(mut self, number: u8, x: f32, y: f32) -> Situation {
+        let (position, heading) = (Vec2::new(x, y), Vec2::X);
+        self.model.mates.push(MateBelief { number, position, heading, time: 0, heard: 0 });
+        self
+    }
+
+    /// Switches a mechanism of teamwork on.
+    pub fn with(mut self, mechanism: Mechanism) -> Situation {
+        let on = Mechanism::ALL.into_iter().filter(|other| self.teamwork.has(*other));
+        self.teamwork.mechanisms = on.chain([mechanism]).collect();
+        self
+    }
+
+    pub fn senses(&self) -> Perception<'_> {
+        Perception {
+            team: Team::Home,
+            role: 2,
+            model: &self.model,
+            picture: &self.picture,
+            teamwork: &self.teamwork,
+            pitch: &self.pitch,
+            danger_zone: Situation::DANGER_ZONE,
+            homebase: Situation::HOMEBASE,
+            now: self.now,
+            ball_age: self.ball_age,
+            time_in_state: self.time_in_state,
+            holds_ball: false,
+            stalled_for: self.stalled_for,
+            front: Situation::FRONT,
+            ball_radius: Situation::BALL_RADIUS,
+        }
+    }
+}
+
+/// A size 5 football that rolls straight.
+pub const BALL: BallKind = BallKind {
+    radius: 0.11,
+    mass: 0.43,
+    rolling: 0.3,
+    sliding: 3.4,
+    inertia: 0.667,
+    friction: 0.3,
+    restitution: 0.2,
+    wander: 0.0,
+};
+
+/// The shipped pitch: 9 by 5 m.
+pub fn pitch() -> Pitch {
+    let text = include_str!("../../../assets/pitches/middle_size_2001.ron");
+    Source::new("pitch.ron", text).parse().expect("the shipped pitch is sound")
+}
+
+/// The shipped radio that loses nothing.
+pub fn perfect_radio() -> Radio {
+    let text = include_str!("../../../assets/radios/perfect.ron");
+    Source::new("perfect.ron", text).parse().expect("the shipped radio is sound")
+}
+
+/// A strategy of one player that does nothing.
+pub fn idle() -> Strategy {
+    let role =
+        r#"Plays(tag: "I", machine: "m", danger_zone: (min: (0, 0), max: (1, 1)), homebases: [(0, 0)])"#;
+    let machine = r#"machines: {"m": (start: "s", states: {"s": ()})}"#;
+    strategy("idle", &format!("schemas: {{}}, assemblages: {{}}, {machine}, roles: {{\"idle\": {role}}}"))
+}
+
+/// The shipped robot, which decides 20 times a second.
+pub fn cye() -> RobotKind {
+    let text = include_str!("../../../assets/robots/cye.ron");
+    Source::new("cye.ron", text).parse().expect("the shipped robot is sound")
+}
+
+/// A strategy of one player with these features, schemas, assemblages, machines and roles, as a file has them.
+pub fn strategy(player: &str, pieces: &str) -> Strategy {
+    let text = format!(
+        "(name: \"test\", robot_kinds: [\"cye\"], players: [\"{player}\"],
+          kick_off: (ours: [(-1.0, 0.0)], theirs: [(-1.0, 0.0)]), {pieces})"
+    );
+    let assets = AssetFolder::new("assets");
+    Strategy::parse(&assets, &Source::new("test.ron", text), None).expect("the strategy of the test is sound")
+}

@@ -1,0 +1,103 @@
+//! Whom a robot avoids, supports and gives way to.
+
+use super::*;
+use crate::comms::messages::HaveBall;
+use crate::strategy::RoleRef;
+use crate::strategy::teamwork::{Mechanism, TeammatesBy};
+
+fn role(index: u8) -> RoleRef {
+    RoleRef { name: "mate".into(), index }
+}
+
+/// Robot 2 of four with roles 0 to 3, ranked in this order, that has heard robots 1 and 3 and sees a fourth.
+fn ranked() -> Situation {
+    let mut here = Situation::at(0.0, 0.0, 0.0)
+        .with(Mechanism::TeammateAvoidance)
+        .with(Mechanism::HierarchicalAvoidance)
+        .mate(1, 1.0, 0.0)
+        .mate(3, 0.0, 1.0)
+        .robot(Home, -2.0, 0.0);
+    here.teamwork.ranks = vec![0, 1, 2, 3];
+    here.teamwork.teammates_by = TeammatesBy::Messages;
+    here
+}
+
+#[test]
+fn way_is_given_to_those_above_and_not_to_those_below() {
+    let here = ranked();
+    assert_eq!(places(&here, Points::Superiors), [v(1.0, 0.0)]);
+    assert_eq!(places(&here, Points::Peers), []);
+    assert_eq!(places(&here, Points::Teammates), [v(1.0, 0.0), v(0.0, 1.0)]);
+}
+
+#[test]
+fn without_a_hierarchy_all_are_peers() {
+    let mut here = ranked();
+    here.teamwork.mechanisms = here.teamwork.mechanisms.without(Mechanism::HierarchicalAvoidance);
+    assert_eq!(places(&here, Points::Superiors), []);
+    assert_eq!(places(&here, Points::Peers), [v(1.0, 0.0), v(0.0, 1.0)]);
+}
+
+#[test]
+fn nobody_is_avoided_when_avoidance_is_off() {
+    let mut here = ranked();
+    here.teamwork.mechanisms = here.teamwork.mechanisms.without(Mechanism::TeammateAvoidance);
+    for points in [Points::Teammates, Points::Superiors, Points::Peers] {
+        assert_eq!(places(&here, points), []);
+    }
+}
+
+#[test]
+fn a_team_mate_that_is_only_seen_counts_if_sight_does_and_then_among_the_superiors() {
+    let mut here = ranked();
+    here.teamwork.teammates_by = TeammatesBy::MessagesAndSight;
+    assert_eq!(places(&here, Points::Superiors), [v(1.0, 0.0), v(-2.0, 0.0)]);
+    here.teamwork.teammates_by = TeammatesBy::Sight;
+    assert_eq!(places(&here, Points::Teammates), [v(-2.0, 0.0)]);
+    assert_eq!(places(&here, Points::Superiors), [v(-2.0, 0.0)]);
+}
+
+#[test]
+fn a_robot_seen_where_a_mate_says_it_is_is_that_mate() {
+    let here = ranked().robot(Home, 1.3, 0.2);
+    assert_eq!(here.model.strangers(Home).collect::<Vec<_>>(), [v(-2.0, 0.0)]);
+}
+
+#[test]
+fn the_carrier_is_where_the_claimant_says_it_is() {
+    let mut here = ranked();
+    assert_eq!(places(&here, Points::Claimant), []);
+    here.picture.carrier = Some((3, 3));
+    assert_eq!(places(&here, Points::Claimant), [v(0.0, 1.0)]);
+    assert!(holds(&here, Feature::TeammateHasBall(vec![])));
+    assert!(holds(&here, Feature::TeammateHasBall(vec![role(3)])));
+    assert!(!holds(&here, Feature::TeammateHasBall(vec![role(1)])));
+}
+
+#[test]
+fn support_is_behind_and_to_the_side_where_the_robot_is() {
+    let mut here = Situation::at(0.0, 1.5, 0.0).mate(3, 1.0, 0.0);
+    here.picture.carrier = Some((3, 3));
+    let spot = Point::SupportSpot { behind: 1.0, aside: 0.5 };
+    assert_eq!(place(&here, spot.clone()), Some(v(0.0, 0.5)));
+    here.model.pose.position.y = -1.5;
+    assert_eq!(place(&here, spot), Some(v(0.0, -0.5)));
+}
+
+#[test]
+fn support_changes_sides_at_a_wall() {
+    let mut here = Situation::at(0.0, 2.3, 0.0).mate(3, 4.4, 2.0);
+    here.picture.carrier = Some((3, 3));
+    let spot = place(&here, Point::SupportSpot { behind: 0.5, aside: 1.0 }).expect("the carrier is known");
+    assert!(spot.y <= 2.1 && spot.x <= 4.1, "{spot}");
+}
+
+#[test]
+fn a_role_is_where_the_robot_believed_to_have_it_says_it_is() {
+    let mut here = ranked();
+    assert_eq!(place(&here, Point::Teammate(role(3))), Some(v(0.0, 1.0)));
+    here.picture.claims.hear(1, &HaveBall { time: 1, robot: 1, have_ball: true, role: 3 }, 1);
+    here.picture.note_role(1, 3);
+    assert_eq!(place(&here, Point::Teammate(role(3))), Some(v(1.0, 0.0)));
+    assert_eq!(place(&here, Point::Teammate(role(1))), Some(v(0.0, 1.0)), "they have changed roles");
+}

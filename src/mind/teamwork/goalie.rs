@@ -1,0 +1,129 @@
+//! What the goalie tells of itself, and what the others know of it (section VI-C).
+
+use bevy::prelude::*;
+
+use crate::comms::messages::{GoalieBehaviour, GoalieNews, Side};
+use crate::geometry::Zone;
+
+/// The goalie's own watch over the border of its penalty area.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BorderWatch {
+    is_out: bool,
+}
+
+/// The border is this wide, so that a goalie that stands on it does not leave and enter all the time, m.
+const BORDER: f32 = 0.1;
+/// Crossings nearer to the middle of the goal than this are at the centre, m.
+const CENTRE: f32 = 0.2;
+
+impl BorderWatch {
+    /// What there is to tell, given the goalie's place in the team frame: it leaves when it comes out on the ball's account,
+    /// and enters when it is back, whatever brings it.
+    pub fn update(&mut self, own: Vec2, area: Zone, acquires: bool) -> Option<(GoalieBehaviour, Side)> {
+        let behaviour = match self.is_out {
+            false if acquires && !area.grown(BORDER).contains(own) => GoalieBehaviour::Leaving,
+            true if area.contains(own) => GoalieBehaviour::Entering,
+            _ => return None,
+        };
+        self.is_out = behaviour == GoalieBehaviour::Leaving;
+        Some((behaviour, side(own)))
+    }
+}
+
+fn side(own: Vec2) -> Side {
+    match own.y {
+        y if y > CENTRE => Side::Left,
+        y if y < -CENTRE => Side::Right,
+        _ => Side::Centre,
+    }
+}
+
+/// What a robot knows of its goalie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct GoalieWhereabouts {
+    pub is_out: bool,
+    /// The side by which it crossed the border last.
+    pub side: Option<Side>,
+    /// Milliseconds on the goalie's clock.
+    time: u32,
+    /// The tick in which it was heard.
+    heard: u64,
+}
+
+impl GoalieWhereabouts {
+    /// Takes note of a goalie message, unless a later one came earlier.
+    pub fn hear(&mut self, news: &GoalieNews, tick: u64) {
+        if news.time < self.time {
+            return;
+        }
+        *self = GoalieWhereabouts {
+            is_out: news.behaviour == GoalieBehaviour::Leaving,
+            side: Some(news.side),
+            time: news.time,
+            heard: tick,
+        };
+    }
+
+    /// A goalie that left so many ticks ago and was not heard of since is taken to be back: the news may have been lost.
+    pub fn forget(&mut self, tick: u64, memory: u64) {
+        self.is_out &= tick.saturating_sub(self.heard) <= memory;
+    }
+
+    /// The y coordinate, m, so far from the middle on the side away from where the goalie crossed last.
+    pub fn away(&self, y: f32, own: Vec2) -> f32 {
+        match self.side {
+            Some(Side::Left) => -y,
+            Some(Side::Right) => y,
+            Some(Side::Centre) | None => y.copysign(own.y),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AREA: Zone = Zone { min: Vec2::new(-4.5, -1.5), max: Vec2::new(-3.5, 1.5) };
+
+    #[test]
+    fn the_goalie_tells_when_it_leaves_for_the_ball_and_when_it_is_back() {
+        let mut watch = BorderWatch::default();
+        assert_eq!(watch.update(Vec2::new(-4.0, 0.0), AREA, true), None);
+        assert_eq!(watch.update(Vec2::new(-3.45, 1.0), AREA, true), None, "on the border");
+        let left = watch.update(Vec2::new(-3.3, 1.0), AREA, true);
+        assert_eq!(left, Some((GoalieBehaviour::Leaving, Side::Left)));
+        assert_eq!(watch.update(Vec2::new(-2.0, 1.0), AREA, false), None);
+        assert_eq!(watch.update(Vec2::new(-3.45, 0.0), AREA, false), None, "on the border");
+        let entered = watch.update(Vec2::new(-3.6, 0.0), AREA, false);
+        assert_eq!(entered, Some((GoalieBehaviour::Entering, Side::Centre)));
+    }
+
+    #[test]
+    fn a_goalie_that_is_carried_out_says_nothing() {
+        assert_eq!(BorderWatch::default().update(Vec2::new(0.0, 0.0), AREA, false), None);
+    }
+
+    fn news(time: u32, behaviour: GoalieBehaviour, side: Side) -> GoalieNews {
+        GoalieNews { time, robot: 0, behaviour, side }
+    }
+
+    #[test]
+    fn overtaken_goalie_news_changes_nothing() {
+        let mut known = GoalieWhereabouts::default();
+        known.hear(&news(200, GoalieBehaviour::Entering, Side::Left), 12);
+        known.hear(&news(100, GoalieBehaviour::Leaving, Side::Right), 14);
+        assert!(!known.is_out);
+        assert_eq!(known.away(1.2, Vec2::ZERO), -1.2);
+    }
+
+    #[test]
+    fn a_goalie_of_which_nothing_was_heard_is_taken_to_be_back() {
+        let mut known = GoalieWhereabouts::default();
+        known.hear(&news(100, GoalieBehaviour::Leaving, Side::Centre), 10);
+        known.forget(70, 60);
+        assert!(known.is_out);
+        known.forget(71, 60);
+        assert!(!known.is_out);
+        assert_eq!(known.away(1.2, Vec2::new(0.0, -0.3)), -1.2, "at the centre, the robot's own side");
+    }
+}

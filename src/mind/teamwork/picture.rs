@@ -1,0 +1,93 @@
+//! What a robot knows of its team: who plays what, who has the ball, where the goalie is.
+
+use bevy::prelude::*;
+use smallvec::SmallVec;
+
+use super::booking::Standing;
+use super::claims::Claims;
+use super::goalie::{BorderWatch, GoalieWhereabouts};
+use super::policy::Valued;
+use super::reports::BallReports;
+use crate::clock::Clock;
+use crate::comms::messages::Values;
+use crate::protocol::role_swap::{Assignment, Number, RoleIndex};
+use crate::strategy::Strategy;
+
+/// A robot's picture of its team; written by the Teamwork stage.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct TeamPicture {
+    /// Who is believed to play which role.
+    pub roles: Assignment,
+    pub claims: Claims,
+    /// Whether the robot has claimed the ball and nobody above it has.
+    pub has_ball: bool,
+    /// The team mate whose claim of the ball holds, and its role.
+    pub carrier: Option<(Number, RoleIndex)>,
+    pub goalie: GoalieWhereabouts,
+    /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.
+    pub values: SmallVec<[(Number, Values, u64); 4]>,
+    /// What the team mates said last of the ball.
+    pub reports: BallReports,
+    /// Who has booked the ball, in this robot's eyes.
+    pub booking: Standing,
+    /// If the robot is the goalie.
+    pub border: BorderWatch,
+    pub said: Said,
+}
+
+/// When a robot said what last, in ticks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Said {
+    pub position: Option<u64>,
+    pub have_ball: Option<u64>,
+    pub ball: Option<u64>,
+}
+
+impl TeamPicture {
+    /// A robot that has heard nothing yet: roles are as at kick-off.
+    pub fn new(strategy: &Strategy) -> TeamPicture {
+        TeamPicture::of(kick_off_roles(strategy))
+    }
+
+    /// A robot that knows the roles and nothing else.
+    pub fn of(roles: Assignment) -> TeamPicture {
+        TeamPicture {
+            roles,
+            claims: Claims::default(),
+            has_ball: false,
+            carrier: None,
+            goalie: GoalieWhereabouts::default(),
+            values: SmallVec::new(),
+            reports: BallReports::default(),
+            booking: Standing::default(),
+            border: BorderWatch::default(),
+            said: Said::default(),
+        }
+    }
+
+    pub(super) fn values_of(&self, number: Number, clock: &Clock) -> Option<Valued> {
+        let (_, said, heard) = self.values.iter().find(|(from, ..)| *from == number)?;
+        let age = clock.tick.saturating_sub(*heard) as f32 * clock.dt;
+        Some(Valued { values: said.values.iter().copied().collect(), wish: said.wish, age })
+    }
+
+    /// The team mate that is believed to play a role.
+    pub fn holder_of(&self, role: RoleIndex) -> Option<Number> {
+        self.roles.roles().iter().position(|held| *held == role).map(|number| number as Number)
+    }
+
+    /// Takes note that a robot plays a role. Nobody else is believed to play it then: whoever was gets the robot's former one.
+    pub fn note_role(&mut self, robot: Number, role: RoleIndex) {
+        let Some(before) = self.roles.of(robot) else { return };
+        if let Some(other) = self.holder_of(role).filter(|other| *other != robot) {
+            self.roles.set(other, before);
+        }
+        self.roles.set(robot, role);
+    }
+}
+
+/// Everybody's role at kick-off, by number.
+pub fn kick_off_roles(strategy: &Strategy) -> Assignment {
+    // A strategy that was loaded has 256 roles at most.
+    Assignment::new(strategy.players.iter().map(|role| *role as RoleIndex))
+}

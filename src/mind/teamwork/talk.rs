@@ -1,0 +1,178 @@
+//! What a robot tells its team: whether it has the ball, whether the goalie is out, where it is (figure 3).
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+
+use super::Role;
+use super::picture::TeamPicture;
+use super::swap::Swapping;
+use crate::clock::Clock;
+use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Position, Values};
+use crate::comms::tcm::TcmClient;
+use crate::geometry::unit;
+use crate::ids::RobotId;
+use crate::mind::behaviour::Activity;
+use crate::mind::world_model::WorldModel;
+use crate::pitch::Pitch;
+use crate::protocol::role_swap::RoleIndex;
+use crate::robot::{OffPitch, Robot};
+use crate::strategy::teamwork::{Mechanism, Talk};
+use crate::strategy::{State, Strategies, Strategy};
+
+/// A robot that may claim the ball.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(super) struct Claimant {
+    id: &'static RobotId,
+    robot: &'static Robot,
+    model: &'static WorldModel,
+    activity: &'static Activity,
+    role: &'static Role,
+    picture: &'static mut TeamPicture,
+    off_pitch: Has<OffPitch>,
+}
+
+/// A robot claims the ball while it is within a metre of it in an acquire behaviour, unless somebody above it does.
+pub(super) fn claim_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robots: Query<Claimant>) {
+    for mut robot in &mut robots {
+        if !robot.robot.decides(&clock) {
+            continue;
+        }
+        let strategy = strategies.of(robot.id.team);
+        let own = robot.is_at_ball(strategy).then_some((robot.id.number, robot.role.0 as RoleIndex));
+        let claims = strategy.teamwork.has(Mechanism::Claims);
+        let holder = robot.picture.claims.holder(own, &strategy.teamwork).filter(|_| claims);
+        robot.picture.has_ball = holder.is_some() && holder == own;
+        robot.picture.carrier = holder.filter(|_| holder != own);
+    }
+}
+
+impl ClaimantItem<'_, '_> {
+    fn is_at_ball(&self, strategy: &Strategy) -> bool {
+        let radius = strategy.teamwork.talk.claim_radius;
+        let near = |ball: Vec2| ball.distance(self.model.pose.position) <= radius;
+        !self.off_pitch
+            && state(self.activity, strategy).acquires
+            && self.model.ball.is_some_and(|ball| near(ball.position))
+    }
+}
+
+fn state<'a>(activity: &Activity, strategy: &'a Strategy) -> &'a State {
+    strategy.state(activity.machine(strategy), activity.state)
+}
+
+/// A robot that talks to its team.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(super) struct Speaker {
+    id: &'static RobotId,
+    robot: &'static Robot,
+    model: &'static WorldModel,
+    activity: &'static Activity,
+    role: &'static Role,
+    swapping: Option<&'static Swapping>,
+    picture: &'static mut TeamPicture,
+    client: &'static mut TcmClient,
+}
+
+pub(super) fn tell_team(
+    clock: Res<Clock>,
+    pitch: Res<Pitch>,
+    strategies: Res<Strategies>,
+    mut robots: Query<Speaker, Without<OffPitch>>,
+) {
+    for mut robot in &mut robots {
+        let strategy = strategies.of(robot.id.team);
+        if !robot.robot.decides(&clock) || !strategy.teamwork.has(Mechanism::Messages) {
+            continue;
+        }
+        // Everything that it could say rests on where it is.
+        if !robot.model.is_localised() {
+            continue;
+        }
+        robot.tell_of_ball(&strategy.teamwork.talk, &clock);
+        if strategy.teamwork.goalie.is_some_and(|goalie| usize::from(goalie) == robot.role.0) {
+            robot.tell_of_goal(strategy, &pitch, &clock);
+        }
+        robot.tell_of_place(&strategy.teamwork.talk, &clock);
+        if strategy.teamwork.has(Mechanism::BallReports) {
+            robot.report_ball(&strategy.teamwork.talk, &clock);
+        }
+    }
+}
+
+impl SpeakerItem<'_, '_> {
+    /// A claim is told when it begins, again and again while it lasts, and once when it ends.
+    fn tell_of_ball(&mut self, talk: &Talk, clock: &Clock) {
+        let (has, said) = (self.picture.has_ball, self.picture.said.have_ball);
+        let is_due = match said {
+            Some(since) => !has || clock.tick >= since + clock.ticks(talk.claim_every),
+            None => has,
+        };
+        if is_due {
+            self.picture.said.have_ball = has.then_some(clock.tick);
+            self.client.broadcast(&HaveBall {
+                time: milliseconds(clock),
+                robot: self.id.number,
+                have_ball: has,
+                role: self.role.0 as RoleIndex,
+            });
+        }
+    }
+
+    fn tell_of_goal(&mut self, strategy: &Strategy, pitch: &Pitch, clock: &Clock) {
+        let own = self.model.pose.position;
+        let acquires = state(self.activity, strategy).acquires;
+        if let Some((behaviour, side)) = self.picture.border.update(own, pitch.own_penalty_area(), acquires) {
+            self.client.broadcast(&GoalieNews {
+                time: milliseconds(clock),
+                robot: self.id.number,
+                behaviour,
+                side,
+            });
+        }
+    }
+
+    fn tell_of_place(&mut self, talk: &Talk, clock: &Clock) {
+        let is_due = |last: u64| clock.tick >= last + clock.ticks(talk.position_every);
+        if !self.picture.said.position.is_none_or(is_due) {
+            return;
+        }
+        self.picture.said.position = Some(clock.tick);
+        let pose = self.model.pose;
+        self.client.broadcast(&Position {
+            time: milliseconds(clock),
+            robot: self.id.number,
+            position: pose.position,
+            heading: unit(pose.heading),
+            configuration: self.swapping.and_then(|swapping| swapping.machine.configuration()).cloned(),
+        });
+        if let Some((values, wish)) = self.swapping.and_then(|swapping| swapping.values.clone()) {
+            self.client.broadcast(&Values {
+                time: milliseconds(clock),
+                robot: self.id.number,
+                values: values.to_vec(),
+                wish,
+            });
+        }
+    }
+}
+
+impl SpeakerItem<'_, '_> {
+    /// A ball is reported again and again while it is in sight.
+    fn report_ball(&mut self, talk: &Talk, clock: &Clock) {
+        let every = clock.ticks(talk.ball_every);
+        let is_due = self.picture.said.ball.is_none_or(|last| clock.tick >= last + every);
+        let in_sight = |seen: u64| clock.tick.saturating_sub(seen) <= every;
+        if let Some(ball) = self.model.ball.filter(|ball| is_due && in_sight(ball.seen)) {
+            self.picture.said.ball = Some(clock.tick);
+            let age = clock.tick.saturating_sub(ball.seen) as f32 * clock.dt;
+            self.client.broadcast(&BallReport { time: milliseconds(clock), position: ball.position, age });
+        }
+    }
+}
+
+/// The time on a robot's clock. All clocks agree.
+fn milliseconds(clock: &Clock) -> u32 {
+    (clock.now() * 1000.0) as u32
+}

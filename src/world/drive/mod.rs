@@ -1,0 +1,190 @@
+//! The Drive stage: what a robot wants, or its pilot, becomes forces of its wheels or legs.
+//!
+//! Pilot and strategy share the limits of speed, acceleration and force.
+
+mod differential;
+mod walker;
+mod wheels;
+
+use bevy::ecs::query::QueryData;
+use bevy::prelude::*;
+use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
+
+pub use differential::steer;
+pub use walker::{GaitError, Trunk, push_legs, stride};
+pub use wheels::{Rigid, push_wheels};
+
+use crate::clock::Clock;
+use crate::geometry::wrap_angle;
+use crate::ids::RobotId;
+use crate::mind::motor::SteeringIntent;
+use crate::robot::pilot::Pilot;
+use crate::robot::{
+    DifferentialDrive, Drive, DriveCommand, Gait, Robot, RobotBodies, TrailerKind, Walker, WheelSpeeds,
+};
+use crate::schedule::{Tick, TickSystems};
+use crate::world::handling::Handling;
+use crate::world::physics::Bodies;
+use crate::world::referee::Orders;
+use crate::world::sense::Odometry;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_systems(Tick, (command_motors, push_bodies).chain().in_set(TickSystems::Drive));
+}
+
+/// A robot whose motors are told what to do.
+#[derive(QueryData)]
+#[query_data(mutable)]
+struct Driven {
+    robot: &'static Robot,
+    intent: &'static SteeringIntent,
+    pilot: Option<&'static Pilot>,
+    odometry: &'static Odometry,
+    handling: &'static Handling,
+    orders: &'static Orders,
+    command: &'static mut DriveCommand,
+}
+
+fn command_motors(clock: Res<Clock>, mut robots: Query<Driven>) {
+    for mut driven in &mut robots {
+        let may_move = driven.orders.may_move() && driven.robot.condition.drives();
+        let next = match (&driven.robot.kind.drive, *driven.command) {
+            (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
+                let wanted = if may_move { driven.wheels(drive) } else { WheelSpeeds::default() };
+                DriveCommand::Wheels(speeds.towards(wanted, drive.acceleration * clock.dt))
+            }
+            (Drive::Walker(walker), DriveCommand::Gait(gait)) => {
+                let wanted = if may_move { driven.gait(walker) } else { Gait::default() };
+                DriveCommand::Gait(gait.towards(wanted, walker, clock.dt))
+            }
+            (Drive::Differential(_) | Drive::Walker(_), _) => DriveCommand::idle(&driven.robot.kind),
+        };
+        *driven.command = next;
+    }
+}
+
+impl DrivenItem<'_, '_> {
+    fn wheels(&self, drive: &DifferentialDrive) -> WheelSpeeds {
+        if let Some(pilot) = self.pilot {
+            let turn = pilot.turn * drive.turn_rate.to_radians();
+            return WheelSpeeds::from_motion(pilot.throttle * drive.max_speed, turn, drive);
+        }
+        match *self.intent {
+            SteeringIntent::Stop => WheelSpeeds::default(),
+            SteeringIntent::Spin(rate) => WheelSpeeds::from_motion(0.0, rate, drive),
+            SteeringIntent::Steer { heading, speed, .. } => {
+                steer(wrap_angle(heading - self.odometry.pose.heading), speed * drive.max_speed, drive)
+            }
+        }
+    }
+
+    /// Robots that kick or catch do not walk, and one that holds the ball goes gently.
+    fn gait(&self, walker: &Walker) -> Gait {
+        if self.handling.is_busy() {
+            return Gait::default();
+        }
+        let gait = self.wanted_gait(walker);
+        match self.robot.kind.chin.filter(|_| self.handling.holds()) {
+            Some(chin) => {
+                let fastest = chin.turn.to_radians();
+                Gait {
+                    ahead: gait.ahead * chin.walk,
+                    left: gait.left * chin.walk,
+                    turn: gait.turn.clamp(-fastest, fastest),
+                }
+            }
+            None => gait,
+        }
+    }
+
+    fn wanted_gait(&self, walker: &Walker) -> Gait {
+        if let Some(pilot) = self.pilot {
+            let (ahead, left) = (pilot.throttle * walker.ahead, pilot.aside * walker.aside);
+            return Gait { ahead, left, turn: pilot.turn * walker.turn.to_radians() }.limited(walker);
+        }
+        let heading = self.odometry.pose.heading;
+        match *self.intent {
+            SteeringIntent::Stop => Gait::default(),
+            SteeringIntent::Spin(rate) => Gait { turn: rate, ..Gait::default() }.limited(walker),
+            SteeringIntent::Steer { heading: wanted, facing, speed } => {
+                let course = wanted - heading;
+                // In reverse the heading is where the nose points.
+                stride(course, facing - heading, speed, walker)
+            }
+        }
+    }
+}
+
+/// A robot whose bodies are pushed.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(crate) struct Pushed {
+    id: &'static RobotId,
+    robot: &'static Robot,
+    handles: &'static RobotBodies,
+    command: &'static DriveCommand,
+    error: &'static mut GaitError,
+}
+
+/// In order, since Rapier remembers the order in which bodies are touched.
+pub(crate) fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, mut robots: Query<Pushed>) {
+    for mut pushed in robots.iter_mut().sort::<&RobotId>() {
+        match (&pushed.robot.kind.drive, *pushed.command) {
+            (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
+                pushed.roll(speeds, drive, &mut bodies, &clock);
+            }
+            (Drive::Walker(walker), DriveCommand::Gait(gait)) => {
+                pushed.walk(gait, walker, &mut bodies, &clock);
+            }
+            (Drive::Differential(_) | Drive::Walker(_), _) => {}
+        }
+    }
+}
+
+impl PushedItem<'_, '_> {
+    fn roll(&self, speeds: WheelSpeeds, drive: &DifferentialDrive, bodies: &mut Bodies, clock: &Clock) {
+        let handles = self.handles;
+        let Some(mut unit) = bodies.get(&handles.unit).map(rigid) else { return };
+        let kind: Option<&TrailerKind> = self.robot.kind.trailer.as_ref();
+        let mut trailer = handles.trailer.and_then(|handle| bodies.get(&handle)).map(rigid);
+        push_wheels(&mut unit, trailer.as_mut().zip(kind), speeds, drive, clock.dt);
+        let moved = [Some(handles.unit).zip(Some(unit)), handles.trailer.zip(trailer)];
+        for (handle, state) in moved.into_iter().flatten() {
+            if let Some(body) = bodies.get_mut(&handle) {
+                body.set_linvel(state.linear, false);
+                body.set_angvel(state.angular, false);
+            }
+        }
+    }
+
+    fn walk(&mut self, gait: Gait, walker: &Walker, bodies: &mut Bodies, clock: &Clock) {
+        let Some(body) = bodies.get_mut(&self.handles.unit) else { return };
+        let gait = self.error.applied(gait, &walker.noise, clock.tick, clock.ticks(walker.noise.step));
+        let rigid = rigid(body);
+        let trunk = Trunk {
+            forward: rigid.forward,
+            linear: rigid.linear,
+            angular: rigid.angular,
+            mass: rigid.mass,
+            inverse_inertia: rigid.inverse_inertia,
+            lever: self.robot.kind.body.length / 2.0,
+        };
+        let (linear, angular) = push_legs(&trunk, gait, walker.push, clock.dt);
+        body.set_linvel(linear, false);
+        body.set_angvel(angular, false);
+    }
+}
+
+fn rigid(body: &Body) -> Rigid {
+    let properties = body.mass_properties();
+    let rotation = body.rotation();
+    Rigid {
+        hitch: body.translation(),
+        forward: Vec2::new(rotation.cos(), rotation.sin()),
+        centre: properties.world_com,
+        linear: body.linvel(),
+        angular: body.angvel(),
+        mass: body.mass(),
+        inverse_inertia: properties.effective_world_inv_inertia,
+    }
+}

@@ -1,0 +1,22 @@
+//! The truth of a match: bodies, ball, wheels and legs, eyes, and the referee. No mind names anything of it.
+
+pub mod ball;
+pub mod drive;
+pub mod gamecontroller;
+pub mod handling;
+pub mod head;
+pub mod physics;
+pub mod referee;
+pub mod sense;
+
+use bevy::prelude::*;
+
+pub(super) fn plugin(app: &mut App) {
+    app.add_plugins((
+        physics::plugin,
+        sense::plugin,
+        (head::plugin, drive::plugin, handling::plugin),
+        ball::plugin,
+        referee::plugin,
+    ));
+}

@@ -1,0 +1,94 @@
+//! The Referee stage: looks at the truth and applies the rules, which are pure and live beside this file. What they decide is
+//! carried out by [`crate::game`], as people around a pitch do.
+
+mod decision;
+mod orders;
+mod restraints;
+mod rulebook;
+mod rules;
+mod state;
+mod witness;
+
+use std::collections::VecDeque;
+
+use bevy::prelude::*;
+
+pub use decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
+pub use orders::{Orders, RobotState};
+pub use restraints::Restraints;
+pub use rulebook::{
+    BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,
+};
+pub use rules::{Laws, Observation, RULES, Rule, Word, follow, referee};
+pub use state::{MatchState, Phase, Removal};
+
+use crate::clock::Clock;
+use crate::ids::RobotId;
+use crate::schedule::{Tick, TickSystems};
+use crate::world::gamecontroller::BoxNews;
+use witness::Ground;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Whistles>()
+        .init_resource::<Calls>()
+        .init_resource::<PenaltiesDue>()
+        .add_systems(Tick, judge.in_set(TickSystems::Referee));
+}
+
+/// The last decisions, oldest first, with their ticks.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Whistles {
+    pub heard: VecDeque<(u64, Decision)>,
+}
+
+/// Decisions that are kept for people to see.
+const HEARD: usize = 64;
+
+/// The decisions of this tick, until they are carried out.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Calls(pub Vec<Decision>);
+
+/// Robots that are to be taken off whatever they have done, since people or a scenario want it so.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct PenaltiesDue(pub Vec<RobotId>);
+
+pub(crate) fn judge(
+    clock: Res<Clock>,
+    ground: Ground,
+    (mut state, mut due): (ResMut<MatchState>, ResMut<PenaltiesDue>),
+    (mut calls, mut whistles): (ResMut<Calls>, ResMut<Whistles>),
+    news: Option<Res<BoxNews>>,
+) {
+    calls.0.clear();
+    for robot in due.0.drain(..) {
+        let reason = RemovalReason::Ordered;
+        if state.remove(robot, f64::INFINITY, reason) {
+            calls.0.push(Decision::RobotRemoved { robot, reason });
+        }
+    }
+    if state.refereed {
+        let (laws, scene, dt) = (ground.laws(), ground.scene(), f64::from(clock.dt));
+        match &news {
+            None => referee(&laws, &scene.observation(), dt, &mut state, &mut calls.0),
+            // Nothing is decided before the box has spoken.
+            Some(news) => {
+                if let Some(view) = &news.view {
+                    let word = Word { view, silence: news.silence(&clock), is_lost: news.is_lost(&clock) };
+                    follow(&word, &laws, &scene.observation(), dt, &mut state, &mut calls.0);
+                }
+            }
+        }
+    }
+    whistles.note(clock.tick, &calls.0);
+}
+
+impl Whistles {
+    fn note(&mut self, tick: u64, calls: &[Decision]) {
+        for call in calls {
+            if self.heard.len() == HEARD {
+                self.heard.pop_front();
+            }
+            self.heard.push_back((tick, *call));
+        }
+    }
+}

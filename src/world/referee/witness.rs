@@ -1,0 +1,127 @@
+//! What the referee can see besides places: who touches the ball, who pushes whom, who stands still.
+
+use bevy::ecs::query::QueryData;
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::*;
+use smallvec::SmallVec;
+
+use super::rulebook::RuleBook;
+use super::rules::{Laws, Observation};
+use crate::geometry::{Pose, Twist};
+use crate::ids::RobotId;
+use crate::pitch::Pitch;
+use crate::robot::{DriveCommand, OffPitch, RobotBodies};
+use crate::world::ball::Ball;
+use crate::world::handling::Handling;
+use crate::world::physics::{Bodies, touch};
+
+/// A robot as the referee sees it.
+#[derive(QueryData)]
+pub struct Player {
+    id: &'static RobotId,
+    handles: &'static RobotBodies,
+    pose: &'static Pose,
+    twist: &'static Twist,
+    command: &'static DriveCommand,
+    handling: &'static Handling,
+}
+
+type Players<'w, 's> = Query<'w, 's, Player, Without<OffPitch>>;
+type SeenBall = (&'static Ball, &'static Pose, &'static RapierRigidBodyHandle);
+
+/// All that the referee looks at.
+#[derive(SystemParam)]
+pub(crate) struct Ground<'w, 's> {
+    pitch: Res<'w, Pitch>,
+    book: Res<'w, RuleBook>,
+    bodies: Bodies<'w, 's>,
+    simulation: Single<'w, 's, &'static RapierContextSimulation>,
+    ball: Single<'w, 's, SeenBall>,
+    players: Players<'w, 's>,
+}
+
+impl Ground<'_, '_> {
+    pub(super) fn laws(&self) -> Laws<'_> {
+        let (ball, ..) = *self.ball;
+        Laws { pitch: &self.pitch, book: &self.book, ball_radius: ball.kind.radius }
+    }
+
+    /// Contacts and motion only where a rule asks for them.
+    pub(super) fn scene(&self) -> Scene {
+        let (_, pose, body) = *self.ball;
+        if self.book.watches_contacts() {
+            Scene::whole((pose, body), &self.players, &self.bodies, &self.simulation)
+        } else {
+            Scene::of_places(pose.position, &self.players)
+        }
+    }
+}
+
+/// Everything that happens between bodies.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scene {
+    ball: Vec2,
+    robots: SmallVec<[(RobotId, Vec2); 8]>,
+    touching: SmallVec<[RobotId; 4]>,
+    held_by: Option<RobotId>,
+    shoving: SmallVec<[(RobotId, RobotId); 4]>,
+    still: SmallVec<[RobotId; 8]>,
+}
+
+/// A robot that is told to move towards another faster than this pushes it, m/s.
+const SHOVE: f32 = 0.05;
+/// Slower robots stand still, m/s and rad/s.
+const STILL: (f32, f32) = (0.02, 0.1);
+
+impl Scene {
+    /// Places alone: all that the rules of walled pitches ask for.
+    fn of_places(ball: Vec2, players: &Players) -> Scene {
+        let mut robots: SmallVec<[(RobotId, Vec2); 8]> =
+            players.iter().map(|player| (*player.id, player.pose.position)).collect();
+        robots.sort_unstable_by_key(|(id, _)| *id);
+        Scene { ball, robots, ..Scene::default() }
+    }
+
+    /// Also contacts and motion.
+    fn whole(
+        ball: (&Pose, &RapierRigidBodyHandle),
+        players: &Players,
+        bodies: &Bodies,
+        simulation: &RapierContextSimulation,
+    ) -> Scene {
+        let mut scene = Scene::of_places(ball.0.position, players);
+        let contact = |a: &RapierRigidBodyHandle, b: &RapierRigidBodyHandle| touch(simulation, bodies, a, b);
+        for player in players {
+            let id = *player.id;
+            if contact(&player.handles.unit, ball.1) {
+                scene.touching.push(id);
+            }
+            if player.handling.holds() {
+                scene.held_by = Some(id);
+            }
+            if player.twist.linear.length() < STILL.0 && player.twist.angular.abs() < STILL.1 {
+                scene.still.push(id);
+            }
+            let wanted = player.pose.forward().rotate(player.command.velocity());
+            for other in players.iter().filter(|other| other.id.team != id.team) {
+                let way = (other.pose.position - player.pose.position).normalize_or_zero();
+                if wanted.dot(way) > SHOVE && contact(&player.handles.unit, &other.handles.unit) {
+                    scene.shoving.push((id, *other.id));
+                }
+            }
+        }
+        scene
+    }
+
+    pub fn observation(&self) -> Observation<'_> {
+        Observation {
+            ball: self.ball,
+            robots: &self.robots,
+            touching: &self.touching,
+            held_by: self.held_by,
+            shoving: &self.shoving,
+            still: &self.still,
+        }
+    }
+}

@@ -1,0 +1,222 @@
+//! Frames on their way from the shutter to the robot, and wheels that turn in vain.
+
+use bevy::ecs::system::RunSystemOnce;
+
+use super::*;
+use crate::data::Source;
+use crate::ids::Team::{Away, Home};
+use crate::mind::perception::fixture::{BALL, cye};
+use crate::robot::WheelSpeeds;
+use crate::world::referee::RuleBook;
+
+/// Bodies and eyes, moved by hand.
+struct Bench(World);
+
+/// Eyes that miss nothing in view and make no errors.
+fn sharp(latency: f32) -> Sensing {
+    let text = include_str!("../../../assets/sensing/cye_2001.ron");
+    let mut sensing: Sensing = Source::new("eyes.ron", text).parse().expect("the shipped eyes are sound");
+    if let Eyes::Real { camera, localisation, .. } = &mut sensing.eyes {
+        *camera = Camera { latency, detection: 1.0, range_noise: 0.0, range_floor: 0.0, ..*camera };
+        *camera = Camera { bearing_noise: 0.0, false_positive: 0.0, ..*camera };
+        (localisation.position, localisation.heading) = (0.0, 0.0);
+    }
+    sensing
+}
+
+fn perfect() -> Sensing {
+    Sensing { name: "perfect".into(), eyes: Eyes::Perfect, memory: MemorySpans { ball: 3.0, robots: 2.0 } }
+}
+
+fn noisy() -> Sensing {
+    let text = include_str!("../../../assets/sensing/cye_2001.ron");
+    Source::new("eyes.ron", text).parse().expect("the shipped eyes are sound")
+}
+
+impl Bench {
+    fn new(ball: Vec2) -> Bench {
+        let mut world = World::new();
+        world.insert_resource(Clock::new(60.0));
+        world.insert_resource(MatchState::new(Home, &RuleBook::default()));
+        world.spawn((Ball { kind: BALL }, Pose { position: ball, heading: 0.0 }));
+        Bench(world)
+    }
+
+    fn robot(&mut self, sensing: &Sensing, team: Team, number: u8, pose: Pose) -> Entity {
+        let id = RobotId::new(team, number);
+        let robot = Robot::new(Arc::new(cye()), self.0.resource());
+        let eyesight = Eyesight::new(Arc::new(sensing.clone()), Seed(1), id);
+        let drive = (Twist::default(), DriveCommand::idle(&robot.kind), Odometry::new(Seed(1), id));
+        let senses = (Head::default(), Handling::new(Seed(1), id), eyesight, Percepts::default());
+        self.0.spawn((id, robot, pose, senses, drive)).id()
+    }
+
+    /// Runs the stage at this tick; returns what the robot has seen.
+    fn sense(&mut self, tick: u64, robot: Entity) -> Option<Frame> {
+        self.0.resource_mut::<Clock>().tick = tick;
+        self.0.run_system_once(take_frames).expect("the system runs");
+        self.0.run_system_once(deliver_frames).expect("the system runs");
+        self.0.run_system_once(read_odometry).expect("the system runs");
+        self.0.get::<Percepts>(robot).expect("the robot has eyes").frame.clone()
+    }
+
+    /// When which frame arrived: tick of arrival and tick of the shutter.
+    fn arrivals(&mut self, ticks: u64, robot: Entity) -> Vec<(u64, u64)> {
+        let mut newest = None;
+        let mut arrivals = Vec::new();
+        for tick in 0..ticks {
+            let taken = self.sense(tick, robot).map(|frame| frame.taken);
+            if taken != newest {
+                arrivals.extend(taken.map(|taken| (tick, taken)));
+                newest = taken;
+            }
+        }
+        arrivals
+    }
+
+    fn odometry(&mut self, tick: u64, robot: Entity) -> Odometry {
+        self.sense(tick, robot);
+        self.0.get::<Odometry>(robot).expect("the robot has wheels").clone()
+    }
+}
+
+fn team_and_range(frame: &Frame) -> Vec<(Team, f32)> {
+    frame.robots.iter().map(|(team, sighting)| (*team, (sighting.range * 100.0).round() / 100.0)).collect()
+}
+
+#[test]
+fn frames_are_taken_at_the_cameras_rate_and_arrive_after_their_latency_in_order() {
+    for (latency, first) in [(0.0, 0), (0.05, 3), (0.15, 9), (0.35, 21)] {
+        let mut bench = Bench::new(Vec2::X);
+        let robot = bench.robot(&sharp(latency), Home, 0, Pose::default());
+        let want = [(first, 0), (first + 6, 6), (first + 12, 12)];
+        assert_eq!(bench.arrivals(first + 18, robot), want, "latency {latency} s");
+    }
+}
+
+#[test]
+fn a_frame_shows_what_was_before_the_lens_when_it_was_taken() {
+    let mut bench = Bench::new(Vec2::new(1.0, 0.0));
+    let robot = bench.robot(&sharp(0.15), Home, 0, Pose::default());
+    bench.sense(0, robot);
+    let mut poses = bench.0.query_filtered::<&mut Pose, With<Ball>>();
+    poses.single_mut(&mut bench.0).expect("one ball").position.x = 2.0;
+    let ranges: Vec<_> = [(6, 9), (12, 15)]
+        .map(|(taken, arrives)| {
+            bench.sense(taken, robot);
+            let frame = bench.sense(arrives, robot).expect("a frame has arrived");
+            frame.ball.map(|ball| ball.range)
+        })
+        .into();
+    assert_eq!(ranges, [Some(1.0), Some(2.0)]);
+}
+
+#[test]
+fn frames_under_way_are_lost_when_the_robot_is_carried() {
+    let mut bench = Bench::new(Vec2::X);
+    let robot = bench.robot(&sharp(0.15), Home, 0, Pose::default());
+    bench.sense(0, robot);
+    bench.0.get_mut::<Eyesight>(robot).expect("the robot has eyes").blink();
+    assert_eq!(bench.sense(9, robot), None);
+}
+
+#[test]
+fn perfect_eyes_see_everything_at_once_behind_themselves_and_through_others_too() {
+    let mut bench = Bench::new(Vec2::new(-4.0, 0.0));
+    let robot = bench.robot(&perfect(), Home, 0, Pose::default());
+    bench.robot(&perfect(), Away, 0, Pose::new(-2.0, 0.0, 0.0));
+    bench.robot(&perfect(), Home, 1, Pose::new(-3.0, 0.0, 0.0));
+    bench.robot(&perfect(), Away, 1, Pose::new(9.0, 0.0, 0.0));
+    let frame = bench.sense(3, robot).expect("at once");
+    assert_eq!((frame.taken, frame.ball), (3, Some(Sighting { range: 4.0, bearing: std::f32::consts::PI })));
+    assert_eq!(team_and_range(&frame), [(Home, 3.0), (Away, 2.0), (Away, 9.0)]);
+    assert_eq!(bench.sense(4, robot).map(|frame| frame.taken), Some(3), "no new frame between decisions");
+}
+
+#[test]
+fn real_eyes_see_neither_what_is_behind_nor_what_is_hidden() {
+    let mut bench = Bench::new(Vec2::new(2.0, 0.0));
+    let robot = bench.robot(&sharp(0.0), Home, 0, Pose::default());
+    bench.robot(&sharp(0.0), Away, 0, Pose::new(1.0, 0.0, 0.0));
+    bench.robot(&sharp(0.0), Away, 1, Pose::new(-1.0, 0.0, 0.0));
+    bench.robot(&sharp(0.0), Home, 1, Pose::new(2.0, 1.0, 0.0));
+    let frame = bench.sense(0, robot).expect("at once");
+    assert_eq!(frame.ball, None, "it is behind the robot ahead");
+    assert_eq!(team_and_range(&frame), [(Home, 2.24), (Away, 1.0)]);
+}
+
+#[test]
+fn a_removed_robot_is_not_seen_hides_nothing_and_sees_nothing() {
+    for sensing in [sharp(0.0), perfect()] {
+        let mut bench = Bench::new(Vec2::new(2.0, 0.0));
+        let robot = bench.robot(&sensing, Home, 0, Pose::default());
+        let other = bench.robot(&sensing, Away, 0, Pose::new(1.0, 0.0, 0.0));
+        assert_eq!(team_and_range(&bench.sense(0, robot).expect("at once")), [(Away, 1.0)]);
+        bench.0.entity_mut(other).insert(OffPitch);
+        let frame = bench.sense(6, robot).expect("at once");
+        assert_eq!((frame.taken, frame.robots.len(), frame.ball.map(|ball| ball.range)), (6, 0, Some(2.0)));
+        assert_eq!(bench.sense(12, other).map(|frame| frame.taken), Some(0), "{}", sensing.name);
+    }
+}
+
+#[test]
+fn a_robot_knows_its_place_in_its_team_frame() {
+    for sensing in [sharp(0.0), perfect()] {
+        let mut bench = Bench::new(Vec2::X);
+        let robot = bench.robot(&sensing, Away, 0, Pose::new(1.0, 2.0, 0.0));
+        let fix = bench.sense(0, robot).expect("at once").fix;
+        assert_eq!(fix.position, Vec2::new(-1.0, -2.0));
+        assert!((fix.heading.abs() - std::f32::consts::PI).abs() < 1e-6, "{fix:?}");
+    }
+}
+
+#[test]
+fn what_a_robot_sees_does_not_depend_on_the_order_in_which_the_others_came() {
+    let others = [(Home, 1, 1.0), (Away, 0, 1.5), (Away, 2, 2.0), (Home, 3, 2.5)];
+    let seen = |order: [usize; 4]| {
+        let mut bench = Bench::new(Vec2::new(1.0, -0.5));
+        let robot = bench.robot(&noisy(), Home, 0, Pose::default());
+        for (team, number, x) in order.map(|index| others[index]) {
+            bench.robot(&noisy(), team, number, Pose::new(x, x - 1.75, 0.0));
+        }
+        (0..60).map(|tick| bench.sense(tick, robot)).collect::<Vec<_>>()
+    };
+    let frames = seen([0, 1, 2, 3]);
+    assert!(frames.iter().flatten().any(|frame| frame.robots.len() == 4));
+    assert_eq!(frames, seen([3, 1, 0, 2]));
+}
+
+#[test]
+fn wheels_that_turn_in_vain_are_noticed_until_the_robot_moves_or_they_stop() {
+    let mut bench = Bench::new(Vec2::X);
+    let robot = bench.robot(&perfect(), Home, 0, Pose::default());
+    let mut stalled = |tick: u64, told: f32, speed: f32, turn_rate: f32| {
+        let speeds = WheelSpeeds { left: 0.0, right: told };
+        bench.0.entity_mut(robot).insert(DriveCommand::Wheels(speeds));
+        bench.0.entity_mut(robot).insert(Twist { linear: Vec2::new(speed, 0.0), angular: turn_rate });
+        (60.0 * bench.odometry(tick, robot).stalled_for).round()
+    };
+    assert_eq!(stalled(0, 0.1, 0.0, 0.0), 0.0, "hardly told to move");
+    assert_eq!([1, 2, 3].map(|tick| stalled(tick, 0.5, 0.0, 0.0)), [1.0, 2.0, 3.0]);
+    assert_eq!([4, 5].map(|tick| stalled(tick, -0.5, -0.03, 0.0)), [4.0, 5.0], "creeping is no moving");
+    assert_eq!(stalled(6, 0.5, 0.1, 0.0), 0.0, "it drives");
+    assert_eq!(stalled(7, 0.5, 0.0, 0.0), 1.0);
+    assert_eq!(stalled(8, 0.5, 0.0, -0.5), 0.0, "it turns");
+    assert_eq!(stalled(9, 0.5, 0.0, 0.0), 1.0);
+    assert_eq!(stalled(10, 0.0, 0.0, 0.0), 0.0, "it rests");
+}
+
+#[test]
+fn the_wheels_report_way_and_turn_at_every_tick_and_sliding_sideways_is_none() {
+    let mut bench = Bench::new(Vec2::X);
+    let robot = bench.robot(&perfect(), Home, 0, Pose::new(2.0, 1.0, std::f32::consts::FRAC_PI_2));
+    bench.0.entity_mut(robot).insert(Twist { linear: Vec2::new(0.6, -0.3), angular: 0.0 });
+    (1..=60).for_each(|tick| drop(bench.sense(tick, robot)));
+    let odometry = bench.odometry(61, robot);
+    assert!((odometry.speed + 0.3).abs() < 1e-6, "{}", odometry.speed);
+    let driven = odometry.pose.position;
+    assert!(driven.distance(Vec2::new(-0.3 * 61.0 / 60.0, 0.0)) < 1e-4, "{driven}");
+    bench.0.entity_mut(robot).insert(Twist { linear: Vec2::ZERO, angular: 1.2 });
+    let odometry = bench.odometry(62, robot);
+    assert!((odometry.pose.heading - 0.02).abs() < 1e-6 && odometry.turn_rate == 1.2, "{odometry:?}");
+}
