@@ -40,6 +40,9 @@ impl fmt::Display for Team {
     }
 }
 
+/// A robot's number within its team.
+pub type PlayerNumber = u8;
+
 /// A robot's team and its number on the shirt, counted from 0 as in the Hammerheads' messages (figure 3).
 ///
 /// The derived order, home before away and then by number, is the order of every loop over robots. In files it is written
@@ -51,11 +54,11 @@ impl fmt::Display for Team {
 #[serde(try_from = "String", into = "String")]
 pub struct RobotId {
     pub team: Team,
-    pub number: u8,
+    pub number: PlayerNumber,
 }
 
 impl RobotId {
-    pub const fn new(team: Team, number: u8) -> RobotId {
+    pub const fn new(team: Team, number: PlayerNumber) -> RobotId {
         RobotId { team, number }
     }
 }

@@ -28,6 +28,8 @@ pub mod rng;
 pub mod robot;
 pub mod schedule;
 pub mod strategy;
+#[cfg(test)]
+mod testing;
 pub mod world;
 
 use bevy::prelude::*;
@@ -39,5 +41,5 @@ pub fn simulation(app: &mut App) {
 
 /// What a robot needs that is a process of its own: its mind, without a world around it.
 pub fn mind(app: &mut App) {
-    app.add_plugins((schedule::plugin, comms::modules, game::net::plugin, mind::plugin, world::head::plugin));
+    app.add_plugins((schedule::plugin, comms::modules, game::net::plugin, mind::plugin));
 }

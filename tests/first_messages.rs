@@ -14,8 +14,7 @@ use touchline::game::requests::{Request, Treatment};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::robot::{Ailment, Recall};
-use touchline::world::sense::Eyes;
+use touchline::robot::{Ailment, Eyes, Recall};
 
 use crate::support::{assets, ball, robot};
 

@@ -7,12 +7,10 @@ use touchline::data::{AssetKind, Source};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::RobotId;
-use touchline::mind::motor::SteeringIntent;
 use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
-use touchline::robot::{OffPitch, Robot};
+use touchline::robot::{OffPitch, Robot, Sensing, SteeringIntent};
 use touchline::world::referee::Phase;
-use touchline::world::sense::Sensing;
 
 use crate::support::{assets, ball, friendly};
 

@@ -8,8 +8,8 @@ use touchline::data::{AssetKind, ron_options};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::lab::scenario::ScenarioPlan;
-use touchline::mind::teamwork::Role;
-use touchline::mind::teamwork::policy::Policy;
+use touchline::protocol::policy::Policy;
+use touchline::strategy::Role;
 
 use crate::support::assets;
 

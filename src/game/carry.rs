@@ -7,20 +7,17 @@ use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
-use crate::mind::behaviour::Activity;
-use crate::mind::motor::SteeringIntent;
 use crate::mind::perception::Memory;
-use crate::mind::teamwork::Role;
 use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
-use crate::robot::{DriveCommand, OffPitch, Robot, RobotBodies};
+use crate::robot::handling::Handling;
+use crate::robot::{DriveCommand, OffPitch, Orders, Percepts, Robot, RobotBodies, SteeringIntent};
 use crate::schedule::{Tick, TickSystems};
-use crate::strategy::{Strategies, Strategy};
+use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::ball::{Ball, Rolling};
-use crate::world::handling::Handling;
 use crate::world::physics::Room;
-use crate::world::referee::{Calls, Decision, MatchState, Orders, Phase, RuleBook, judge};
-use crate::world::sense::{Eyesight, Percepts};
+use crate::world::referee::{Calls, Decision, MatchState, Phase, RuleBook, judge, orders_of};
+use crate::world::sense::Eyesight;
 
 pub(super) fn plugin(app: &mut App) {
     let hands = (place_ball, place_robots, tell_robots).chain();
@@ -159,7 +156,7 @@ fn tell_robots(
             }
             None => orders.place,
         };
-        let next = Orders::of(*id, &state, &book, place);
+        let next = orders_of(*id, &state, &book, place);
         if *orders != next {
             *orders = next;
         }
@@ -211,8 +208,7 @@ mod tests {
     fn robots_take_the_places_of_their_roles_and_share_out_what_nobody_takes() {
         let places = [-1.0, -2.0, -3.0].map(|x| Vec2::new(x, 0.0));
         let kick_off = KickOff { ours: places.to_vec(), theirs: places.to_vec() };
-        let strategy =
-            Strategy { players: vec![5, 6, 7], kick_off, ..crate::mind::perception::fixture::idle() };
+        let strategy = Strategy { players: vec![5, 6, 7], kick_off, ..crate::testing::idle() };
         let x = |roles: &[(u8, usize)]| -> Vec<f32> {
             kick_off_poses(&strategy, roles, true).iter().map(|(_, pose)| pose.position.x).collect()
         };

@@ -4,10 +4,9 @@ use bevy::prelude::*;
 
 use crate::data::Field;
 use crate::geometry::Pose;
-use crate::pitch::Pitch;
+use crate::pitch::{BallKind, Pitch};
 use crate::robot::RobotKind;
 use crate::strategy::KickOff;
-use crate::world::ball::BallKind;
 use crate::world::physics::Footprint;
 
 /// What stands on the pitch at a kick-off.
@@ -71,7 +70,7 @@ fn standing(position: Vec2) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mind::perception::fixture::{BALL, cye, pitch};
+    use crate::testing::{BALL, cye, pitch};
 
     fn fault(theirs: &[(f32, f32)]) -> Option<String> {
         let place = |(x, y): &(f32, f32)| Vec2::new(*x, *y);

@@ -27,7 +27,6 @@ use crate::ids::{MatchEntity, RobotId, Team};
 use crate::rng::Seed;
 use crate::schedule::Tick;
 use crate::strategy::Strategies;
-use crate::world::ball::Ball;
 use crate::world::physics::open_world;
 use crate::world::referee::{Calls, MatchState, Phase, Whistles};
 use spawn::{spawn_ball, spawn_mind, spawn_planned};
@@ -48,6 +47,7 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(clock);
     world.insert_resource(seed);
     world.insert_resource(plan.pitch.clone());
+    world.insert_resource(plan.ball);
     world.insert_resource(plan.rules.clone());
     world.insert_resource(match &plan.situation {
         Some(situation) => MatchState::in_play(Team::Home, &plan.rules, situation.refereed),
@@ -82,12 +82,12 @@ pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity
     world.insert_resource(clock);
     world.insert_resource(seed);
     world.insert_resource(plan.pitch.clone());
+    world.insert_resource(plan.ball);
     world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
     world.insert_resource(MessageCounts::default());
     world.insert_resource(Traffic::default());
     world.insert_resource(RadioLog::default());
     world.insert_resource(Addresses(plan.directory()));
-    world.spawn(Ball { kind: plan.ball });
     spawn_mind(world, plan, robot, seed, &clock)
 }
 

@@ -14,8 +14,7 @@ use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, no_such};
 use crate::game::net::{WirePlan, team_numbers_fault};
 use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
-use crate::pitch::Pitch;
-use crate::world::ball::BallKind;
+use crate::pitch::{BallKind, Pitch};
 use crate::world::referee::RuleBook;
 
 /// A match as it is written in `assets/matches/*.ron`.

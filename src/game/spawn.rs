@@ -12,22 +12,23 @@ use crate::comms::messages::Inbox;
 use crate::comms::tcm::{Tcm, TcmClient, TcmSettings};
 use crate::geometry::{Pose, Twist};
 use crate::ids::{MatchEntity, RobotId};
-use crate::mind::behaviour::Activity;
-use crate::mind::motor::{Contributions, MotorDice, SteeringIntent};
+use crate::mind::motor::{Contributions, MotorDice};
 use crate::mind::perception::Memory;
-use crate::mind::teamwork::{Booking, Role, Swapping, TeamPicture};
+use crate::mind::teamwork::{Booking, Swapping, TeamPicture};
 use crate::mind::world_model::WorldModel;
 use crate::rng::Seed;
+use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
-use crate::robot::{DriveCommand, Robot, RobotBodies, RobotKind, Trailer};
-use crate::strategy::Strategy;
+use crate::robot::{
+    DriveCommand, Head, HeadIntent, KickIntent, Odometry, Orders, Percepts, Robot, RobotBodies, RobotKind,
+    RobotState, Sensing, SteeringIntent, Trailer,
+};
+use crate::strategy::{Activity, Role, Strategy};
 use crate::world::ball::{Ball, BallDice, Rolling};
 use crate::world::drive::GaitError;
-use crate::world::handling::{Handling, KickIntent};
-use crate::world::head::{Head, HeadIntent};
 use crate::world::physics::{register_bodies, trailer_shape, unit_shapes};
-use crate::world::referee::{MatchState, Orders, RobotState};
-use crate::world::sense::{Eyesight, Odometry, Percepts, Sensing};
+use crate::world::referee::MatchState;
+use crate::world::sense::Eyesight;
 
 /// Spawns the ball where the match begins.
 pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
@@ -38,7 +39,7 @@ pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan, seed: Seed) {
     world.spawn((
         Name::new("ball"),
         MatchEntity,
-        Ball { kind },
+        Ball,
         BallDice::new(seed),
         Rolling(velocity),
         pose,
@@ -103,7 +104,7 @@ impl Entry<'_> {
 
 /// Everything of a robot but its body.
 fn parts(entry: &Entry, clock: &Clock) -> impl Bundle + use<> {
-    let mut robot = Robot::new(entry.kind.clone(), clock);
+    let mut robot = Robot::new(entry.kind.clone(), entry.sensing.clone(), clock);
     robot.condition.crashed = !entry.on;
     let attacking = MatchState::attacking_at_start(entry.id.team);
     let model =
@@ -139,7 +140,7 @@ fn parts(entry: &Entry, clock: &Clock) -> impl Bundle + use<> {
         Memory::new(entry.strategy.slots),
         model,
         Percepts::default(),
-        Eyesight::new(entry.sensing.clone(), entry.seed, entry.id),
+        Eyesight::new(&entry.sensing, entry.seed, entry.id),
         Odometry::new(entry.seed, entry.id),
     );
     (body, wants, mind)

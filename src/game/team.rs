@@ -10,11 +10,9 @@ use super::line_up::LineUp;
 use super::plan::MatchPlan;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 use crate::ids::Team;
-use crate::pitch::Pitch;
-use crate::robot::RobotKind;
+use crate::pitch::{BallKind, Pitch};
+use crate::robot::{RobotKind, Sensing};
 use crate::strategy::{Strategy, StrategyReading};
-use crate::world::ball::BallKind;
-use crate::world::sense::Sensing;
 
 /// One side of a match: names of files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

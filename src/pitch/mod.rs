@@ -1,9 +1,13 @@
-//! The pitch as data: sizes, goals, penalty areas and penalty spots. Walls become colliders in [`crate::world::physics`].
+//! The pitch and the ball as data: sizes, goals, penalty areas and penalty spots.
 //!
 //! Everything is in metres in the pitch frame. A pitch is symmetric, so one goal and one penalty area describe both.
 
+mod ball_kind;
+
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
+
+pub use ball_kind::BallKind;
 
 use crate::data::{Bound, Fault, count_fault, first_fault, points_fault};
 use crate::geometry::Zone;

@@ -2,4 +2,5 @@
 //! do. The match runs them and so does the model checker, the very same code.
 
 pub mod b3p;
+pub mod policy;
 pub mod role_swap;

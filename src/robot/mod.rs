@@ -2,9 +2,14 @@
 
 mod condition;
 mod gait;
+pub mod handling;
+mod intent;
 mod kind;
 mod legs;
+mod orders;
 pub mod pilot;
+mod senses;
+pub mod sensing;
 mod wheel_speeds;
 
 use std::sync::Arc;
@@ -15,8 +20,12 @@ use smallvec::SmallVec;
 
 pub use condition::{Ailment, Condition, Recall};
 pub use gait::Gait;
+pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
 pub use legs::{Chin, GaitNoise, Kick, Neck, Walker};
+pub use orders::{Orders, RobotState};
+pub use senses::{Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
+pub use sensing::{Camera, Eyes, Localisation, MemorySpans, OdometryNoise, Sensing};
 pub use wheel_speeds::WheelSpeeds;
 
 use crate::clock::Clock;
@@ -26,6 +35,7 @@ use crate::ids::RobotId;
 #[derive(Component, Clone, Debug)]
 pub struct Robot {
     pub kind: Arc<RobotKind>,
+    pub sensing: Arc<Sensing>,
     pub condition: Condition,
     /// Its decisions are made in another process.
     pub remote: bool,
@@ -34,9 +44,9 @@ pub struct Robot {
 }
 
 impl Robot {
-    pub fn new(kind: Arc<RobotKind>, clock: &Clock) -> Robot {
+    pub fn new(kind: Arc<RobotKind>, sensing: Arc<Sensing>, clock: &Clock) -> Robot {
         let decision_ticks = clock.ticks(1.0 / kind.control_hz);
-        Robot { kind, condition: Condition::default(), remote: false, decision_ticks }
+        Robot { kind, sensing, condition: Condition::default(), remote: false, decision_ticks }
     }
 
     /// Whether the robot's control system decides in this tick, and here.

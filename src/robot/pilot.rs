@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::world::handling::KickIntent;
+use crate::robot::KickIntent;
 
 /// Put on a robot that a person drives; the keys are read by the window and written in the Script stage.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]

@@ -7,9 +7,9 @@
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::role_ref::RoleRef;
 use super::teamwork::Mechanism;
 use crate::geometry::Zone;
+use crate::strategy::role::RoleRef;
 
 /// One place on the field, or nowhere while it is unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

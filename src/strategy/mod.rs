@@ -3,12 +3,13 @@
 //! A file in `assets/strategies` is parsed into a [`StrategyFile`] and then resolved into the [`Strategy`] that runs: names
 //! looked up, numbers checked, nothing half-loaded. See [`language`] for the words of a file.
 
+mod activity;
 mod base;
 mod display;
 mod file;
 pub mod language;
 mod resolve;
-mod role_ref;
+mod role;
 pub mod teamwork;
 
 use std::path::{Path, PathBuf};
@@ -21,10 +22,11 @@ use crate::data::{AssetFolder, DataError, Field, Source};
 use crate::geometry::Zone;
 use crate::ids::Team;
 use crate::pitch::Pitch;
+pub use activity::{Activity, Searched, TransitionTaken, played};
 use base::Lineage;
 pub use file::{KickOff, StrategyFile};
 use language::{Feature, Point, Schema};
-pub use role_ref::RoleRef;
+pub use role::{Role, RoleRef};
 use teamwork::Teamwork;
 
 /// A strategy that can be played: every name is an index, every number is sound.

@@ -3,10 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::role_ref::RoleRef;
-use crate::mind::teamwork::policy::{Cast, Policy};
 use crate::protocol::b3p;
+use crate::protocol::policy::{Cast, Policy};
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
+use crate::strategy::role::RoleRef;
 
 /// A mechanism of collaboration or coordination, each of which can be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -4,13 +4,12 @@
 
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
-use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::clock::Clock;
-use crate::data::{Bound, Fault, first_fault};
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
+use crate::pitch::BallKind;
 use crate::rng::{Dice, Seed};
 use crate::robot::{Robot, Scoop};
 use crate::schedule::{Tick, TickSystems};
@@ -21,11 +20,8 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// The ball, with the part of its spin that rolling needs.
-#[derive(Component, Clone, Debug)]
-#[component(immutable)]
-pub struct Ball {
-    pub kind: BallKind,
-}
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Ball;
 
 /// The velocity in m/s at which the ball's surface rolls: equal to its velocity once it no longer slides.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
@@ -38,43 +34,6 @@ pub struct BallDice(Dice);
 impl BallDice {
     pub fn new(seed: Seed) -> BallDice {
         BallDice(Dice::new(seed, "ball", None))
-    }
-}
-
-/// A ball as data; part of a match file.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BallKind {
-    /// m
-    pub radius: f32,
-    /// kg
-    pub mass: f32,
-    /// Deceleration of a rolling ball, m/s².
-    pub rolling: f32,
-    /// Deceleration of a sliding ball, m/s².
-    pub sliding: f32,
-    /// Moment of inertia over mass and squared radius: 2/3 for a hollow ball, 2/5 for a solid one.
-    pub inertia: f32,
-    pub friction: f32,
-    /// Share of the normal speed kept at a bounce; the higher of the two bodies' values counts.
-    pub restitution: f32,
-    /// Standard deviation of the heading after one metre of rolling, degrees.
-    pub wander: f32,
-}
-
-impl BallKind {
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
-        first_fault([
-            ("radius", self.radius, Bound::SIZE.positive()),
-            ("mass", self.mass, Bound::MASS.positive()),
-            ("rolling", self.rolling, Bound::ACCELERATION.positive()),
-            ("sliding", self.sliding, Bound::ACCELERATION.positive()),
-            ("inertia", self.inertia, Bound::COEFFICIENT.positive()),
-            ("friction", self.friction, Bound::COEFFICIENT),
-            ("restitution", self.restitution, Bound::SHARE),
-            ("wander", self.wander, Bound::ANGLE),
-        ])
     }
 }
 
@@ -105,15 +64,16 @@ pub fn carpet(velocity: Vec2, rolling: Vec2, kind: &BallKind, dt: f32) -> (Vec2,
 fn roll_ball(
     clock: Res<Clock>,
     mut bodies: Bodies,
-    ball: Single<(&Ball, &RapierRigidBodyHandle, &mut Rolling, &mut BallDice)>,
+    kind: Res<BallKind>,
+    ball: Single<(&RapierRigidBodyHandle, &mut Rolling, &mut BallDice), With<Ball>>,
 ) {
-    let (ball, handle, mut rolling, mut dice) = ball.into_inner();
+    let (handle, mut rolling, mut dice) = ball.into_inner();
     let Some(body) = bodies.get_mut(handle) else { return };
     if body.linvel() == Vec2::ZERO && rolling.0 == Vec2::ZERO {
         return;
     }
-    let (mut velocity, roll) = carpet(body.linvel(), rolling.0, &ball.kind, clock.dt);
-    let turn = ball.kind.wander.to_radians() * (velocity.length() * clock.dt).sqrt();
+    let (mut velocity, roll) = carpet(body.linvel(), rolling.0, &kind, clock.dt);
+    let turn = kind.wander.to_radians() * (velocity.length() * clock.dt).sqrt();
     let seam = unit(dice.0.normal(turn));
     velocity = seam.rotate(velocity);
     rolling.0 = seam.rotate(roll);
@@ -136,17 +96,18 @@ pub fn scoop_hold(scoop: &Scoop, gap: f32, aside: f32, drift: Vec2) -> Vec2 {
 fn hold_ball_in_scoops(
     clock: Res<Clock>,
     mut bodies: Bodies,
-    ball: Single<(&Ball, &RapierRigidBodyHandle, &Pose)>,
+    kind: Res<BallKind>,
+    ball: Single<(&RapierRigidBodyHandle, &Pose), With<Ball>>,
     robots: Query<(&RobotId, &Robot, &RapierRigidBodyHandle, &Pose)>,
 ) {
-    let (ball, ball_handle, ball_pose) = ball.into_inner();
+    let (ball_handle, ball_pose) = ball.into_inner();
     let mut near: SmallVec<[_; 8]> =
         robots.iter().filter(|(.., pose)| pose.position.distance(ball_pose.position) < NEAR).collect();
     near.sort_unstable_by_key(|(id, ..)| **id);
     for (_, robot, handle, pose) in near {
         let Some(scoop) = &robot.kind.scoop else { continue };
         let offset = pose.to_local(ball_pose.position);
-        let gap = offset.x - robot.kind.body.length / 2.0 - ball.kind.radius;
+        let gap = offset.x - robot.kind.body.length / 2.0 - kind.radius;
         if offset.x < 0.0 || gap > scoop.hold_reach {
             continue;
         }

@@ -4,7 +4,6 @@ pub mod ball;
 pub mod drive;
 pub mod gamecontroller;
 pub mod handling;
-pub mod head;
 pub mod physics;
 pub mod referee;
 pub mod sense;
@@ -15,7 +14,7 @@ pub(super) fn plugin(app: &mut App) {
     app.add_plugins((
         physics::plugin,
         sense::plugin,
-        (head::plugin, drive::plugin, handling::plugin),
+        (drive::plugin, handling::plugin),
         ball::plugin,
         referee::plugin,
     ));

@@ -1,8 +1,8 @@
 //! The model: robots that run the match's own state machine, a radio with a bounded delay, and everything that may happen next.
 
 use stateright::{Model, Property};
+use touchline::ids::PlayerNumber;
 use touchline::protocol::b3p::{B3p, Book, Distance, Input, Term, Tick};
-use touchline::protocol::role_swap::Number;
 
 use super::checks;
 use super::team::{Misfortune, Release, Team};
@@ -35,8 +35,8 @@ pub struct Robot {
 /// A message in flight.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Envelope {
-    pub from: Number,
-    pub to: Number,
+    pub from: PlayerNumber,
+    pub to: PlayerNumber,
     /// In so many ticks, at the end, it must have arrived.
     left: u8,
     pub book: Book,
@@ -46,7 +46,7 @@ pub struct Envelope {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
     Turn {
-        robot: Number,
+        robot: PlayerNumber,
         noise: u8,
     },
     Deliver(usize),
@@ -54,8 +54,8 @@ pub enum Action {
     /// The tick ends: all have turned and nothing is overdue.
     Tick,
     Kick(Vec<u8>),
-    Crash(Number),
-    Blind(Number),
+    Crash(PlayerNumber),
+    Blind(PlayerNumber),
 }
 
 impl Robot {
@@ -66,7 +66,7 @@ impl Robot {
 }
 
 impl State {
-    pub fn robot(&self, number: Number) -> &Robot {
+    pub fn robot(&self, number: PlayerNumber) -> &Robot {
         &self.robots[usize::from(number)]
     }
 
@@ -75,7 +75,7 @@ impl State {
         self.robots.iter().filter(|robot| robot.goes()).count()
     }
 
-    fn turn(&mut self, team: &Team, number: Number, noise: u8) {
+    fn turn(&mut self, team: &Team, number: PlayerNumber, noise: u8) {
         let robot = &mut self.robots[usize::from(number)];
         robot.turned = true;
         let key = robot.machine.booking().map(|known| known.key);
@@ -99,7 +99,7 @@ impl State {
         self.in_flight.sort_unstable();
     }
 
-    fn crash(&mut self, number: Number) {
+    fn crash(&mut self, number: PlayerNumber) {
         self.in_flight.retain(|envelope| envelope.to != number);
         let robot = &mut self.robots[usize::from(number)];
         robot.machine.restart();
@@ -166,7 +166,7 @@ impl Model for Team {
     }
 
     fn actions(&self, state: &State, actions: &mut Vec<Action>) {
-        let waiting = |number: &Number| state.robot(*number).up && !state.robot(*number).turned;
+        let waiting = |number: &PlayerNumber| state.robot(*number).up && !state.robot(*number).turned;
         for robot in (0..self.robots).filter(waiting) {
             let noises = if state.robot(robot).sees { self.noise } else { 0 };
             actions.extend((0..=noises).map(|noise| Action::Turn { robot, noise }));

@@ -1,6 +1,6 @@
 //! Tells what happened in plain sentences.
 
-use touchline::protocol::role_swap::Number;
+use touchline::ids::PlayerNumber;
 
 use super::model::{Action, Robot, State};
 
@@ -62,7 +62,7 @@ fn sentence(before: &State, action: &Action, after: &State) -> String {
     }
 }
 
-fn outcome(before: &State, after: &State, robot: Number) -> &'static str {
+fn outcome(before: &State, after: &State, robot: PlayerNumber) -> &'static str {
     let goes = |state: &State| Robot::goes(state.robot(robot));
     match (goes(before), goes(after)) {
         (false, true) => ": it goes",

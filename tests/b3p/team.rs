@@ -1,7 +1,7 @@
 //! What a run is about: the team, its rules, its radio, where the ball may lie and what may happen once.
 
+use touchline::ids::PlayerNumber;
 use touchline::protocol::b3p::{B3p, Distance, Rules, Settings, Update};
-use touchline::protocol::role_swap::Number;
 
 pub const ALWAYS: Rules = Rules::Paper(Update::Always);
 pub const CAUTIOUS: Rules = Rules::Paper(Update::Cautious);
@@ -121,7 +121,7 @@ impl Team {
         Team { misfortune, ..self }
     }
 
-    pub fn machine(&self, robot: Number) -> B3p {
+    pub fn machine(&self, robot: PlayerNumber) -> B3p {
         let settings = Settings {
             rules: self.rules,
             threshold: Distance(self.threshold.into()),

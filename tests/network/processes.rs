@@ -12,7 +12,7 @@ use touchline::comms::tcm::{Directory, HOST, party};
 use touchline::game::MatchPlan;
 use touchline::game::net::{self, Greeting, WireError, WirePlan};
 use touchline::ids::{RobotId, Team};
-use touchline::mind::motor::SteeringIntent;
+use touchline::robot::SteeringIntent;
 use touchline::world::referee::Phase;
 
 use super::{HOME_0, HOME_1, address_of, by_udp, free_directory, greet, open, stranger, talkative};

@@ -11,13 +11,13 @@ use touchline::ids::{RobotId, Team};
 use touchline::mind::teamwork::Booking;
 use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
-use touchline::robot::OffPitch;
+use touchline::robot::{OffPitch, Orders, RobotState};
 use touchline::world::gamecontroller::BoxNews;
 use touchline::world::gamecontroller::announcement::{Sentence, Standing};
 use touchline::world::gamecontroller::control::{ControlPacket, GamePhase, Penalty, SetPlay, State, Version};
 use touchline::world::gamecontroller::referee_box::Heard;
 use touchline::world::gamecontroller::status::{PORT, STATUS_LEN, StatusPacket};
-use touchline::world::referee::{Decision, Orders, Phase, RobotState, Whistles};
+use touchline::world::referee::{Decision, Phase, Whistles};
 
 use super::announced::{announced, next};
 use super::{HOME_0, open, plan, stranger, talkative};

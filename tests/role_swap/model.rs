@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use stateright::{Model, Property};
+use touchline::ids::PlayerNumber;
 use touchline::protocol::role_swap::{
-    Configuration, Effect, Effects, Input, Lock, Message, Number, OnMissingAck, Phase, Reassignment,
-    RoleSwap, Sequence, Timer,
+    Configuration, Effect, Effects, Input, Lock, Message, OnMissingAck, Phase, Reassignment, RoleSwap,
+    Sequence, Timer,
 };
 
 use super::checks::{self, Facts};
@@ -36,14 +37,14 @@ pub struct Robot {
 /// What may happen next. Messages are named by their places among those in flight.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    Initiate { robot: Number, reassignment: Reassignment, asked: Vec<Number> },
+    Initiate { robot: PlayerNumber, reassignment: Reassignment, asked: Vec<PlayerNumber> },
     Deliver(usize),
     DeliverAndKeep(usize),
     Lose(usize),
-    TimeOut(Number, Timer),
-    Hear(Number, Configuration),
-    Crash { robot: Number, unsent: Vec<usize> },
-    Restart(Number),
+    TimeOut(PlayerNumber, Timer),
+    Hear(PlayerNumber, Configuration),
+    Crash { robot: PlayerNumber, unsent: Vec<usize> },
+    Restart(PlayerNumber),
 }
 
 impl Robot {
@@ -59,7 +60,7 @@ impl Robot {
 }
 
 impl State {
-    pub fn robot(&self, number: Number) -> &Robot {
+    pub fn robot(&self, number: PlayerNumber) -> &Robot {
         &self.robots[usize::from(number)]
     }
 
@@ -68,7 +69,7 @@ impl State {
     }
 
     /// Whether a robot is engaged in its attempt of this number.
-    pub fn attempt_goes_on(&self, initiator: Number, attempt: Sequence) -> bool {
+    pub fn attempt_goes_on(&self, initiator: PlayerNumber, attempt: Sequence) -> bool {
         let robot = self.robot(initiator);
         let (Phase::WaitingForLocks { sequence } | Phase::WaitingForAcks { sequence }) =
             robot.machine.phase()
@@ -88,13 +89,13 @@ impl Team {
             && state.live().all(Robot::is_free)
     }
 
-    fn timer_may_run_out(&self, state: &State, robot: Number, timer: Timer) -> bool {
+    fn timer_may_run_out(&self, state: &State, robot: PlayerNumber, timer: Timer) -> bool {
         let timing = if timer == Timer::Lock { self.lock_timers } else { self.initiators_timers };
         timing == Timing::Any || self.waits_in_vain(state, robot, timer)
     }
 
     /// Whether nothing of what a timer guards can come any more.
-    fn waits_in_vain(&self, state: &State, robot: Number, timer: Timer) -> bool {
+    fn waits_in_vain(&self, state: &State, robot: PlayerNumber, timer: Timer) -> bool {
         let machine = &state.robot(robot).machine;
         let network = &state.network;
         match (timer, machine.phase(), machine.lock()) {
@@ -139,7 +140,7 @@ impl Team {
                 machine != robot.machine
             }
         };
-        let timers = |robot: Number| {
+        let timers = |robot: PlayerNumber| {
             state.robot(robot).timers().any(|timer| self.timer_may_run_out(state, robot, timer))
         };
         state.network.in_flight().is_empty()
@@ -148,7 +149,7 @@ impl Team {
                 && state.live().any(|robot| self.held_by_the_living(state).any(|heard| learns(robot, heard))))
     }
 
-    fn run(&self, state: &mut State, robot: Number, input: Input, answers_roll_back: bool) {
+    fn run(&self, state: &mut State, robot: PlayerNumber, input: Input, answers_roll_back: bool) {
         let rolls_back = input == Input::TimeOut(Timer::Acks)
             && matches!(self.version, Version::Paper(rules)
                 if !matches!(rules.on_missing_ack, OnMissingAck::Resend { .. }));
@@ -160,7 +161,14 @@ impl Team {
         }
     }
 
-    fn carry_out(&self, state: &mut State, robot: Number, effects: Effects, rolls_back: bool, answers: bool) {
+    fn carry_out(
+        &self,
+        state: &mut State,
+        robot: PlayerNumber,
+        effects: Effects,
+        rolls_back: bool,
+        answers: bool,
+    ) {
         for effect in effects {
             let running = &mut state.robots[usize::from(robot)].running;
             match effect {

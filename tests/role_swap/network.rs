@@ -1,12 +1,13 @@
 //! The radio of a model: the messages in flight, and what may happen to them.
 
-use touchline::protocol::role_swap::{Message, Number};
+use touchline::ids::PlayerNumber;
+use touchline::protocol::role_swap::Message;
 
 /// A message in flight.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Envelope {
-    pub from: Number,
-    pub to: Number,
+    pub from: PlayerNumber,
+    pub to: PlayerNumber,
     pub message: Message,
     /// A SWAP that rolls back, or the acknowledgement of one. The robots cannot see it.
     pub roll_back: bool,
@@ -109,7 +110,7 @@ impl Network {
         })
     }
 
-    pub fn any(&self, from: Number, to: Number, matches: impl Fn(&Message) -> bool) -> bool {
+    pub fn any(&self, from: PlayerNumber, to: PlayerNumber, matches: impl Fn(&Message) -> bool) -> bool {
         self.in_flight.iter().any(|e| (e.from, e.to) == (from, to) && matches(&e.message))
     }
 }

@@ -1,7 +1,8 @@
 //! Tells a counterexample in plain sentences.
 
 use stateright::{Checker, Model};
-use touchline::protocol::role_swap::{Configuration, Message, Number, Order, Phase, RoleIndex, Timer};
+use touchline::ids::PlayerNumber;
+use touchline::protocol::role_swap::{Configuration, Message, Order, Phase, RoleIndex, Timer};
 
 use super::checks::Check;
 use super::model::{Action, State};
@@ -138,7 +139,7 @@ fn describe(message: &Message, roll_back: bool) -> String {
 }
 
 /// What the step changed for a robot, and what it sends.
-fn outcome(before: &State, after: &State, robot: Number) -> String {
+fn outcome(before: &State, after: &State, robot: PlayerNumber) -> String {
     let (was, is) = (&before.robot(robot).machine, &after.robot(robot).machine);
     let mut outcomes = Vec::new();
     if was.role() != is.role() {

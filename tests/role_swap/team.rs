@@ -1,8 +1,9 @@
 //! What a run of the checker is about: the team, its version of the protocol, its radio, its timers and its misfortunes.
 
+use touchline::ids::PlayerNumber;
 use touchline::protocol::role_swap::{
-    Assignment, Hardened, Ingredient, Number, OnMissingAck, Paper, PaperRules, Reassignment, RoleIndex,
-    RoleSwap, Unlock,
+    Assignment, Hardened, Ingredient, OnMissingAck, Paper, PaperRules, Reassignment, RoleIndex, RoleSwap,
+    Unlock,
 };
 
 use super::checks::Check;
@@ -21,7 +22,7 @@ pub struct Team {
     pub initiators_timers: Timing,
     pub lock_timers: Timing,
     /// For each attempt in turn the robots of which one may begin it.
-    pub attempts: Vec<Vec<Number>>,
+    pub attempts: Vec<Vec<PlayerNumber>>,
     pub asked: Asked,
     pub wanted: Wanted,
     pub crashes: Crashes,
@@ -64,7 +65,7 @@ pub enum Wanted {
 #[derive(Clone, Debug)]
 pub struct Crashes {
     pub at_most: u8,
-    pub of: Vec<Number>,
+    pub of: Vec<PlayerNumber>,
     pub afterwards: Afterwards,
 }
 
@@ -116,7 +117,7 @@ impl Team {
         Assignment::new(0..self.robots)
     }
 
-    pub fn machine(&self, robot: Number) -> RoleSwap {
+    pub fn machine(&self, robot: PlayerNumber) -> RoleSwap {
         let all = self.roles_at_start();
         match self.version {
             Version::Paper(rules) => RoleSwap::Paper(Paper::new(robot, all, rules)),
@@ -125,7 +126,7 @@ impl Team {
         }
     }
 
-    pub fn reassignments(&self, initiator: Number) -> Vec<Reassignment> {
+    pub fn reassignments(&self, initiator: PlayerNumber) -> Vec<Reassignment> {
         let roles: &[(RoleIndex, RoleIndex)] = match initiator {
             0 => &[(HALFBACK, FORWARD), (FORWARD, FLOATER), (FLOATER, HALFBACK)],
             1 => &[(FORWARD, HALFBACK), (FLOATER, FORWARD), (HALFBACK, FLOATER)],
@@ -142,8 +143,8 @@ impl Team {
     }
 
     /// The groups of robots that an initiator may ask.
-    pub fn groups(&self, initiator: Number) -> Vec<Vec<Number>> {
-        let others: Vec<Number> = (0..self.robots).filter(|robot| *robot != initiator).collect();
+    pub fn groups(&self, initiator: PlayerNumber) -> Vec<Vec<PlayerNumber>> {
+        let others: Vec<PlayerNumber> = (0..self.robots).filter(|robot| *robot != initiator).collect();
         match self.asked {
             Asked::Everybody => vec![others],
             Asked::Anybody => (0_u32..1 << others.len()).map(|chosen| subset(&others, chosen)).collect(),

@@ -7,9 +7,8 @@ use crate::data::{AssetFolder, AssetKind, DataError, Source, TopLevel, field_nam
 use crate::game::{Choice, MatchFile, MatchPlan, checked, read_addresses};
 use crate::lab::scenario::{ScenarioFile, ScenarioPlan};
 use crate::pitch::Pitch;
-use crate::robot::RobotKind;
+use crate::robot::{RobotKind, Sensing};
 use crate::strategy::{Strategy, StrategyFile};
-use crate::world::sense::Sensing;
 
 /// The kind of a file: the one that has most of the fields in it. So a file with a fault is told from another, too.
 ///

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use crate::game::requests::Calibration;
-use crate::robot::{Drive, RobotKind};
-use crate::world::sense::{Eyes, Sensing};
+use crate::robot::{Drive, Eyes, RobotKind, Sensing};
 
 /// A robot's own copy of its values.
 #[derive(Clone, Debug, PartialEq)]

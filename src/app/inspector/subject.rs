@@ -11,19 +11,18 @@ use crate::app::view::state::Selected;
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Twist};
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
-use crate::mind::motor::{Contributions, SteeringIntent};
-use crate::mind::teamwork::{Booking, Role, TeamPicture};
+use crate::mind::motor::Contributions;
+use crate::mind::teamwork::{Booking, TeamPicture};
 use crate::mind::world_model::WorldModel;
+use crate::pitch::BallKind;
 use crate::pitch::Pitch;
+use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
-use crate::robot::{DriveCommand, OffPitch, Robot};
-use crate::strategy::{Assemblage, State, Strategies, Strategy};
+use crate::robot::{DriveCommand, Head, Odometry, OffPitch, Orders, Percepts, Robot, SteeringIntent};
+use crate::strategy::{Activity, Assemblage, Role, State, Strategies, Strategy};
 use crate::world::ball::Ball;
-use crate::world::handling::Handling;
-use crate::world::head::Head;
-use crate::world::referee::{MatchState, Orders};
-use crate::world::sense::{Eyesight, Odometry, Percepts};
+use crate::world::referee::MatchState;
+use crate::world::sense::Eyesight;
 
 /// Everything that there is to see of a robot.
 #[derive(QueryData)]
@@ -59,7 +58,8 @@ pub struct Scene<'w, 's> {
     pub pitch: Res<'w, Pitch>,
     pub selected: Res<'w, Selected>,
     subjects: Query<'w, 's, Subject>,
-    ball: Query<'w, 's, (Entity, &'static Ball, &'static Pose, &'static Twist)>,
+    kind: Res<'w, BallKind>,
+    ball: Query<'w, 's, (Entity, &'static Pose, &'static Twist), With<Ball>>,
 }
 
 /// The true ball, in the team frame of the robot that is looked at.
@@ -108,10 +108,10 @@ impl Scene<'_, '_> {
             clock: *self.clock,
             ends,
             pose: ends.turn_pose(placed(of.entity, *of.pose)),
-            ball: self.ball.iter().next().map(|(entity, ball, pose, twist)| TrueBall {
+            ball: self.ball.iter().next().map(|(entity, pose, twist)| TrueBall {
                 position: ends.turn(placed(entity, *pose).position),
                 velocity: ends.turn(twist.linear),
-                radius: ball.kind.radius,
+                radius: self.kind.radius,
             }),
             others,
             of,

@@ -10,8 +10,8 @@ use crate::app::view::layout::PanelSystems;
 use crate::app::view::opened::Inspector;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
-use crate::mind::teamwork::Role;
 use crate::robot::pilot::Pilot;
+use crate::strategy::Role;
 
 pub(super) fn plugin(app: &mut App) {
     register_what_can_be_looked_at(app);

@@ -12,6 +12,7 @@ use super::shapes::{paint, soft_disc};
 use super::shown::{Drawn, Fade, Shown, height};
 use crate::clock::Clock;
 use crate::geometry::Pose;
+use crate::pitch::BallKind;
 use crate::world::ball::Ball;
 
 pub(super) fn plugin(app: &mut App) {
@@ -42,11 +43,12 @@ fn draw_ball(
     mut meshes: ResMut<Assets<Mesh>>,
     mut materials: ResMut<Assets<ColorMaterial>>,
     mut past: ResMut<Past>,
-    ball: Single<(Entity, &Ball, &Pose)>,
+    kind: Res<BallKind>,
+    ball: Single<(Entity, &Pose), With<Ball>>,
 ) {
     past.0.clear();
-    let (entity, ball, pose) = *ball;
-    let radius = ball.kind.radius;
+    let (entity, pose) = *ball;
+    let radius = kind.radius;
     let [fill, edge] = [colours::BALL, colours::BALL_EDGE.with_alpha(EDGE_OPACITY)]
         .map(|colour| materials.add(paint(colour)));
     let fade = Fade::of([(fill.clone(), 1.0), (edge.clone(), EDGE_OPACITY)]);

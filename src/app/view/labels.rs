@@ -20,11 +20,11 @@ use super::state::{Overlays, Screen, Selected};
 use super::style::{SMALL, font};
 use crate::comms::radio::Conditions;
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
-use crate::mind::teamwork::{Role, Swapping};
+use crate::mind::teamwork::Swapping;
+use crate::pitch::BallKind;
 use crate::robot::pilot::Pilot;
 use crate::robot::{OffPitch, Robot};
-use crate::strategy::{Strategies, Strategy};
+use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::ball::Ball;
 use crate::world::referee::MatchState;
 
@@ -111,7 +111,7 @@ fn write_on_pitch(
     (mut kept, mut placed): (ResMut<Kept>, ResMut<Placed>),
     shown: Query<(&Shown, Option<&Plate>)>,
     robots: Query<Labelled>,
-    ball: Query<&Ball>,
+    (kind, ball): (Res<BallKind>, Query<(), With<Ball>>),
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
     let layer = egui::LayerId::new(egui::Order::Background, egui::Id::new("text on the pitch"));
@@ -122,7 +122,7 @@ fn write_on_pitch(
     }
     for (shown, plate) in &shown {
         let reach = match (ball.get(shown.body), plate, robots.get(shown.body)) {
-            (Ok(ball), ..) => ball.kind.radius,
+            (Ok(()), ..) => kind.radius,
             (_, Some(plate), _) => BODY * plate.reach,
             (.., Ok(robot)) => BODY * reach(&robot.robot.kind),
             _ => continue,

@@ -3,9 +3,8 @@
 use bevy::prelude::*;
 
 use crate::clock::Clock;
-use crate::robot::Kick;
 use crate::robot::pilot::Pilot;
-use crate::world::handling::KickIntent;
+use crate::robot::{Kick, KickIntent};
 
 /// What keys or levers say about walking: shares from -1 to 1, ahead and to the left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

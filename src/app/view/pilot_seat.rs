@@ -14,9 +14,9 @@ use super::state::{Piloted, Selected};
 use crate::clock::Clock;
 use crate::game::requests::{Request, Requests};
 use crate::ids::RobotId;
+use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{Kick, Robot};
-use crate::world::handling::Handling;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Levers>()

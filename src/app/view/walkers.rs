@@ -3,18 +3,16 @@
 
 use bevy::prelude::*;
 
-use super::FrameSystems;
-use super::colours;
 use super::driver::AfterTick;
 use super::robots::{Paint, Parent, fill, part};
 use super::shapes::{paint, polygon, rounded_box_at, soft_disc};
 use super::shown::{Drawn, Shown, height};
 use super::state::Pace;
+use super::{FrameSystems, colours};
 use crate::clock::Clock;
 use crate::geometry::{unit, wrap_angle};
-use crate::robot::RobotKind;
-use crate::world::handling::{Handling, Kicking};
-use crate::world::head::Head;
+use crate::robot::handling::{Handling, Kicking};
+use crate::robot::{Head, RobotKind};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(AfterTick, remember_heads)

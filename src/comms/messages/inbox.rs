@@ -6,8 +6,8 @@ use super::{BallReport, Book, GoalieNews, HaveBall, Message, Position, Text, Val
 use crate::clock::Clock;
 use crate::comms::tcm::external_message::Entity as Party;
 use crate::comms::tcm::{Arrived, Data, RegisterData, TcmSystems};
-use crate::ids::RobotId;
-use crate::protocol::role_swap::{self, Number};
+use crate::ids::{PlayerNumber, RobotId};
+use crate::protocol::role_swap;
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
 
@@ -35,7 +35,7 @@ pub struct Inbox(pub Vec<Received>);
 /// A message that arrived.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Received {
-    pub from: Number,
+    pub from: PlayerNumber,
     pub message: Message,
 }
 

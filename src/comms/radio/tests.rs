@@ -1,15 +1,16 @@
 //! Messages between robots that stand in an otherwise empty world.
 
+use crate::testing::perfect_sensing;
 use std::sync::Arc;
 
 use super::*;
 use crate::comms::messages::{self, HaveBall, Inbox, Message, Received};
 use crate::comms::tcm::{self, Addresses, Directory, Tcm, TcmClient, TcmSettings};
 use crate::ids::Team::{Away, Home};
-use crate::mind::perception::fixture::{cye, perfect_radio};
 use crate::rng::Seed;
 use crate::robot::Ailment;
 use crate::schedule;
+use crate::testing::{cye, perfect_radio};
 
 fn home(number: u8) -> RobotId {
     RobotId::new(Home, number)
@@ -26,7 +27,7 @@ fn app(radio: Radio) -> App {
     app.insert_resource(Addresses(directory));
     let clock = *app.world().resource::<Clock>();
     for (i, id) in [home(0), home(1), home(2), RobotId::new(Away, 0)].into_iter().enumerate() {
-        let robot = Robot::new(Arc::new(cye()), &clock);
+        let robot = Robot::new(Arc::new(cye()), Arc::new(perfect_sensing()), &clock);
         app.world_mut().spawn((
             id,
             robot,

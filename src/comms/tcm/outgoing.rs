@@ -6,8 +6,8 @@ use super::client::{QueueRule, Queues};
 use super::data::Data;
 use super::external_message::{DataType, Entity as Party, Module};
 use super::kind::MessageKind;
-use crate::ids::RobotId;
-use crate::protocol::role_swap::{Number, Sequence};
+use crate::ids::{PlayerNumber, RobotId};
+use crate::protocol::role_swap::Sequence;
 
 /// A robot's proxy of the TCM: it keeps what modules want to say until the TCM is ready for it.
 #[derive(Component, Clone, Debug)]
@@ -40,7 +40,7 @@ impl TcmClient {
     }
 
     /// To one team mate.
-    pub fn send<T: Data>(&mut self, to: Number, data: &T) {
+    pub fn send<T: Data>(&mut self, to: PlayerNumber, data: &T) {
         self.post(Party::Robot { team: self.team, number: to }, data);
     }
 

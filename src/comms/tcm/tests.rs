@@ -1,5 +1,6 @@
 //! Modules of robots that stand in an otherwise empty world, over a radio that loses nothing.
 
+use crate::testing::perfect_sensing;
 use std::iter::zip;
 
 use super::client::{QueueCounters, QueueRule, WhenFull};
@@ -10,10 +11,10 @@ use crate::comms::radio::{self, Channel, Conditions, FaultRules, MessageCounts, 
 use crate::data::ron_options;
 use crate::geometry::Pose;
 use crate::ids::Team::{Away, Home};
-use crate::mind::perception::fixture::{cye, perfect_radio};
 use crate::rng::Seed;
 use crate::robot::Robot;
 use crate::schedule;
+use crate::testing::{cye, perfect_radio};
 
 /// What a user's module says: a line of text, of a type and from a module of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,7 +79,7 @@ fn app(settings: TcmSettings) -> App {
     for (place, id) in zip(0u8.., [HOME_0, HOME_1, HOME_2, AWAY_0]) {
         app.world_mut().spawn((
             id,
-            Robot::new(Arc::new(cye()), &clock),
+            Robot::new(Arc::new(cye()), Arc::new(perfect_sensing()), &clock),
             Pose::new(f32::from(place), 0.0, 0.0),
             TcmClient::new(id, settings.queue),
             Tcm::new(settings, &clock),

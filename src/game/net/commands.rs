@@ -4,13 +4,9 @@ use bevy::prelude::*;
 
 use super::protocol::Command;
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
-use crate::mind::motor::SteeringIntent;
-use crate::mind::teamwork::Role;
 use crate::mind::world_model::{BallBelief, WorldModel};
-use crate::strategy::{Part, Strategies, Strategy};
-use crate::world::handling::KickIntent;
-use crate::world::head::HeadIntent;
+use crate::robot::{HeadIntent, KickIntent, SteeringIntent};
+use crate::strategy::{Activity, Part, Role, Strategies, Strategy};
 
 /// Does what a robot wants.
 pub(super) fn obey(world: &mut World, robot: RobotId, command: &Command) {

@@ -13,11 +13,7 @@ use crate::comms::tcm::{
     Address, Data, DataType, ExternalMessage, Module, RegisterData, from_postcard, to_postcard,
 };
 use crate::geometry::Pose;
-use crate::mind::motor::SteeringIntent;
-use crate::world::handling::KickIntent;
-use crate::world::head::HeadIntent;
-use crate::world::referee::Orders;
-use crate::world::sense::Frame;
+use crate::robot::{Frame, HeadIntent, KickIntent, Orders, SteeringIntent};
 
 pub(super) fn plugin(app: &mut App) {
     app.register_data::<Introduction>().register_data::<Sensors>().register_data::<Command>();

@@ -21,11 +21,8 @@ use crate::comms::tcm::{Data, Directory, HOST, MessageBudgets, Tcm, party};
 use crate::game::MatchPlan;
 use crate::game::requests::{Request, Requests, Treatment};
 use crate::ids::RobotId;
-use crate::robot::{Recall, Robot};
-use crate::world::handling::Handling;
-use crate::world::head::Head;
-use crate::world::referee::{Orders, RobotState};
-use crate::world::sense::{Odometry, Percepts};
+use crate::robot::handling::Handling;
+use crate::robot::{Head, Odometry, Orders, Percepts, Recall, Robot, RobotState};
 
 /// How long a tick waits for answers, unless it was [granted](super::grant) less.
 const PATIENCE: Duration = Duration::from_millis(200);

@@ -20,16 +20,11 @@ use crate::comms::tcm::udp::UdpConn;
 use crate::comms::tcm::{Addresses, Data, HOST, Incoming, MessageBudgets, Tcm, party};
 use crate::game::{MatchPlan, start_mind};
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
-use crate::mind::motor::SteeringIntent;
-use crate::mind::teamwork::Role;
 use crate::mind::world_model::WorldModel;
-use crate::robot::OffPitch;
+use crate::robot::handling::{Grip, Handling};
+use crate::robot::{Head, HeadIntent, KickIntent, Odometry, OffPitch, Percepts, RobotState, SteeringIntent};
 use crate::schedule::Tick;
-use crate::world::handling::{Grip, Handling, KickIntent};
-use crate::world::head::{Head, HeadIntent};
-use crate::world::referee::RobotState;
-use crate::world::sense::{Odometry, Percepts};
+use crate::strategy::{Activity, Role};
 
 /// How often a robot that waits looks whether it is to stop.
 const LOOK: Duration = Duration::from_millis(100);

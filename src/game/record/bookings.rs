@@ -10,10 +10,9 @@ use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::Booking;
 use crate::mind::world_model::WorldModel;
 use crate::protocol::b3p::Distance;
-use crate::robot::Robot;
+use crate::robot::{Orders, Robot, RobotState};
 use crate::strategy::Strategies;
 use crate::strategy::teamwork::BallBooking;
-use crate::world::referee::{Orders, RobotState};
 
 /// How well a team that books the ball has met the requirements so far. Times are seconds of play.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

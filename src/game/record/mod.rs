@@ -19,11 +19,11 @@ use crate::clock::Clock;
 use crate::comms::radio::RadioLog;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
-use crate::mind::behaviour::Activity;
-use crate::mind::teamwork::{Role, Swapping};
+use crate::mind::teamwork::Swapping;
 use crate::rng::Seed;
 use crate::robot::{OffPitch, Trailer};
 use crate::schedule::{Tick, TickSystems};
+use crate::strategy::{Activity, Role};
 use crate::world::ball::Ball;
 use crate::world::referee::{MatchState, Phase};
 

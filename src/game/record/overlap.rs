@@ -5,6 +5,7 @@ use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use serde::Serialize;
 
 use super::Record;
+use crate::pitch::BallKind;
 use crate::world::ball::Ball;
 use crate::world::physics::Overlaps;
 
@@ -29,9 +30,9 @@ impl BallOverlap {
 
 pub(super) fn watch_overlaps(
     overlaps: Overlaps,
-    ball: Single<(&Ball, &RapierRigidBodyHandle)>,
+    kind: Res<BallKind>,
+    ball: Single<&RapierRigidBodyHandle, With<Ball>>,
     mut record: ResMut<Record>,
 ) {
-    let (ball, handle) = *ball;
-    overlaps.of_ball(handle, ball.kind.radius).for_each(|depth| record.overlap.add(depth));
+    overlaps.of_ball(*ball, kind.radius).for_each(|depth| record.overlap.add(depth));
 }

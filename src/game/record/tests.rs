@@ -2,9 +2,8 @@
 
 use super::*;
 use crate::ids::Team::{Away, Home};
-use crate::mind::behaviour::Searched;
-use crate::mind::perception::fixture::BALL;
-use crate::strategy::Strategies;
+use crate::strategy::{Searched, Strategies};
+use crate::testing::BALL;
 use crate::world::referee::RuleBook;
 
 fn record(seed: u64) -> Record {
@@ -24,9 +23,10 @@ fn app() -> App {
     app.insert_resource(Clock::new(60.0));
     app.insert_resource(state);
     app.init_resource::<RadioLog>();
-    let strategy = std::sync::Arc::new(crate::mind::perception::fixture::idle());
+    let strategy = std::sync::Arc::new(crate::testing::idle());
     app.insert_resource(Strategies([strategy.clone(), strategy]));
-    app.world_mut().spawn((Ball { kind: BALL }, Pose::default()));
+    app.insert_resource(BALL);
+    app.world_mut().spawn((Ball, Pose::default()));
     robot(&mut app, Home, 0, 3.0);
     robot(&mut app, Away, 0, -3.0);
     app

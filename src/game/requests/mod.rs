@@ -15,12 +15,10 @@ use bevy::prelude::*;
 use crate::clock::Clock;
 use crate::data::Bound;
 use crate::ids::{RobotId, Team};
-use crate::mind::behaviour::Activity;
 use crate::mind::perception::Memory;
-use crate::mind::teamwork::Role;
 use crate::robot::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
-use crate::strategy::{Strategies, Strategy};
+use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::referee::PenaltiesDue;
 pub use requests::{Calibration, Request, Requests, Script, Shove, Treatment, Weather};
 

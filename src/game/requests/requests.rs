@@ -11,9 +11,8 @@ use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::Reassignment;
 use crate::robot::pilot::Pilot;
-use crate::robot::{Ailment, Recall, RobotKind};
+use crate::robot::{Ailment, Recall, RobotKind, Sensing};
 use crate::strategy::Strategy;
-use crate::world::sense::Sensing;
 
 /// Something that is to happen at the next tick.
 #[derive(Clone, Debug, PartialEq)]

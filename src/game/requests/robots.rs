@@ -9,15 +9,13 @@ use super::requests::{Calibration, Request, Requests, Treatment};
 use crate::clock::Clock;
 use crate::comms::tcm::TcmClient;
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
-use crate::mind::motor::SteeringIntent;
 use crate::mind::perception::Memory;
-use crate::mind::teamwork::{Booking, Role, Swapping, TeamPicture};
+use crate::mind::teamwork::{Booking, Swapping, TeamPicture};
 use crate::mind::world_model::WorldModel;
-use crate::robot::{Ailment, Condition, Recall, Robot, RobotKind};
-use crate::strategy::{Strategies, Strategy};
+use crate::robot::{Ailment, Condition, Percepts, Recall, Robot, RobotKind, SteeringIntent};
+use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::referee::PenaltiesDue;
-use crate::world::sense::{Eyesight, Percepts};
+use crate::world::sense::Eyesight;
 
 /// Everything of a robot that a restart resets.
 #[derive(QueryData)]
@@ -86,7 +84,7 @@ impl PatientItem<'_, '_> {
         let own = &self.robot.kind;
         let body = RobotKind { body: own.body, control_hz: own.control_hz, ..RobotKind::clone(kind) };
         self.robot.kind = Arc::new(body);
-        self.eyesight.sensing = sensing.clone();
+        self.robot.sensing = sensing.clone();
     }
 
     /// What the robot was in the middle of is gone in any case.

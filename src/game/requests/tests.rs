@@ -3,8 +3,8 @@
 use super::*;
 use crate::comms::radio::{Channel, Conditions, FaultRules};
 use crate::ids::Team::{Away, Home};
-use crate::mind::perception::fixture::{perfect_radio, strategy};
 use crate::rng::Seed;
+use crate::testing::{perfect_radio, strategy};
 
 /// Two schemas in one assemblage, one machine, two roles; the first one plays.
 const PIECES: &str = r#"

@@ -15,12 +15,11 @@ use crate::game::requests::{Request, Shove, Treatment, Weather};
 use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked, file_named};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
-use crate::pitch::Pitch;
+use crate::pitch::{BallKind, Pitch};
 use crate::protocol::role_swap::{PaperRules, Reassignment, RoleIndex};
 use crate::robot::Ailment;
 use crate::strategy::Strategy;
 use crate::strategy::teamwork::Protocol;
-use crate::world::ball::BallKind;
 
 /// A scenario with everything that its matches need.
 #[derive(Clone, Debug)]

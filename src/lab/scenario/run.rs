@@ -17,11 +17,10 @@ use crate::comms::radio::MessageCounts;
 use crate::game::Match;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
-use crate::mind::teamwork::{Booking, Role, Standing, Swapping, TeamPicture};
+use crate::mind::teamwork::{Booking, Standing, Swapping, TeamPicture};
 use crate::pitch::Pitch;
 use crate::robot::Robot;
-use crate::strategy::{Strategies, Strategy};
+use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::ball::Ball;
 use crate::world::referee::MatchState;
 

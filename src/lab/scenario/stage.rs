@@ -9,8 +9,8 @@ use crate::comms::radio::MessageCounts;
 use crate::data::{DataError, Source};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
-use crate::mind::perception::fixture;
 use crate::pitch::Pitch;
+use crate::testing;
 
 /// Ticks a second.
 pub(super) const HZ: f32 = 60.0;
@@ -50,8 +50,8 @@ pub(super) fn example() -> ScenarioFile {
 /// The scenario in a text, for a pitch and strategies made up here.
 pub(super) fn checked(text: &str) -> Result<Scenario, DataError> {
     let source = Source::new("x.ron", text);
-    let pitch = fixture::pitch();
-    let kind = fixture::cye();
+    let pitch = testing::pitch();
+    let kind = testing::cye();
     let team = || KnownTeam {
         players: 4,
         kind: Some(&kind),
@@ -59,7 +59,7 @@ pub(super) fn checked(text: &str) -> Result<Scenario, DataError> {
         activities: vec!["search", "acquire", "push"],
     };
     let radios = vec!["lossy".to_owned(), "perfect".to_owned()];
-    let known = Known { pitch: &pitch, ball: &fixture::BALL, teams: [team(), team()], radios };
+    let known = Known { pitch: &pitch, ball: &testing::BALL, teams: [team(), team()], radios };
     check(&source.parse()?, &source, &known)
 }
 
@@ -98,7 +98,7 @@ impl Default for Stage {
             configuration: None,
         });
         let messages = MessageCounts::default();
-        Stage { pitch: fixture::pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], messages }
+        Stage { pitch: testing::pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], messages }
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! One from which it has just looked around for the ball in vain is none to go back to: it tries the others, one by one.
 
+use crate::strategy::Searched;
 use bevy::prelude::*;
-use smallvec::SmallVec;
 
 use crate::mind::perception::Perception;
 use crate::strategy::teamwork::Mechanism;
@@ -16,9 +16,6 @@ const LOYALTY: f32 = 0.3;
 const LOOKED_AROUND: f32 = 5.2;
 /// Nearer to a homebase than this a robot looks around from there, m.
 const THERE: f32 = 1.0;
-
-/// Homebases from which a robot has looked around in vain since it knew the ball last, the latest last.
-pub type Searched = SmallVec<[Vec2; 4]>;
 
 /// Takes note that the robot has looked around from a homebase; forgets all when it knows the ball, and all but the latest
 /// when it has tried every one.

@@ -1,14 +1,25 @@
 //! Decisions of one robot: sub-roles, homebases, transitions, and what is left of them under a changed strategy.
 
+use crate::ids::RobotId;
+use crate::mind::teamwork::TeamPicture;
+use crate::mind::world_model::WorldModel;
+use crate::robot::Odometry;
+use crate::robot::Orders;
+use crate::robot::Robot;
+use crate::robot::handling::Handling;
+use crate::strategy::Role;
+use crate::strategy::TransitionTaken;
+use crate::testing::perfect_sensing;
 use std::sync::Arc;
 
 use bevy::ecs::system::RunSystemOnce;
 
 use super::*;
 use crate::ids::Team;
-use crate::mind::perception::fixture::{BALL, Situation, cye, pitch, strategy};
+use crate::mind::perception::fixture::Situation;
 use crate::rng::Seed;
 use crate::strategy::language::Point;
+use crate::testing::{BALL, cye, pitch, strategy};
 
 /// A robot that decides in every third tick, and nothing else.
 struct Bench {
@@ -29,9 +40,13 @@ impl Bench {
         world.insert_resource(clock);
         world.insert_resource(pitch());
         world.insert_resource(Strategies([strategy.clone(), strategy.clone()]));
-        world.spawn(Ball { kind: BALL });
-        let parts =
-            (id, Robot::new(Arc::new(cye()), &clock), Odometry::new(Seed(1), id), WorldModel::default());
+        world.insert_resource(BALL);
+        let parts = (
+            id,
+            Robot::new(Arc::new(cye()), Arc::new(perfect_sensing()), &clock),
+            Odometry::new(Seed(1), id),
+            WorldModel::default(),
+        );
         let mind = (Memory::new(strategy.slots), Role(role), Activity::new(&strategy, role, 0));
         let mind = (mind, TeamPicture::new(&strategy), Handling::new(Seed(1), id), Orders::default());
         let robot = world.spawn((parts, mind)).id();
@@ -64,8 +79,8 @@ fn here() -> Situation {
     Situation::at(0.0, 0.0, 0.0)
 }
 
-fn taken(tick: u64, from: &str, to: &str, because: impl ToString) -> Taken {
-    Taken { tick, from: from.into(), to: to.into(), because: because.to_string() }
+fn taken(tick: u64, from: &str, to: &str, because: impl ToString) -> TransitionTaken {
+    TransitionTaken { tick, from: from.into(), to: to.into(), because: because.to_string() }
 }
 
 /// A floater that defends while the ball is behind x = 1 and attacks while it is before x = -1, and knows nothing else.

@@ -4,13 +4,14 @@
 //! single contributions are kept for people to see.
 
 mod evaluate;
+mod head;
 mod ready;
 #[cfg(test)]
 mod tests;
 
+use crate::robot::SteeringIntent;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use evaluate::evaluate;
 use ready::walk_to_place;
@@ -18,32 +19,17 @@ use ready::walk_to_place;
 use crate::clock::Clock;
 use crate::geometry::{angle, wrap_angle};
 use crate::ids::RobotId;
-use crate::mind::behaviour::{Activity, Mind, perception};
-use crate::mind::perception::{Memory, Perception};
+use crate::mind::perception::{Decider, Memory, Perception, perception};
 use crate::mind::schemas::combine::{weighted_sum, winner_take_all};
+use crate::pitch::BallKind;
 use crate::pitch::Pitch;
 use crate::rng::{Dice, Seed};
-use crate::robot::{OffPitch, RobotKind};
+use crate::robot::{KickIntent, OffPitch, RobotKind, RobotState};
 use crate::schedule::{Tick, TickSystems};
-use crate::strategy::{Assemblage, Combination, State, Strategies, Turn};
-use crate::world::ball::Ball;
-use crate::world::handling::KickIntent;
-use crate::world::referee::RobotState;
+use crate::strategy::{Activity, Assemblage, Combination, State, Strategies, Turn};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, run_assemblages.in_set(TickSystems::Motor));
-}
-
-/// Where a robot wants to go. Headings are in the odometry's frame, so that the drive can follow them between decisions.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub enum SteeringIntent {
-    #[default]
-    Stop,
-    /// A heading in radians, and a share of the top speed from -1 to 1; 0 turns on the spot, negative drives in reverse.
-    /// Legs can walk along one heading and face another meanwhile; wheels cannot.
-    Steer { heading: f32, facing: f32, speed: f32 },
-    /// Turn on the spot, rad/s.
-    Spin(f32),
+    app.add_systems(Tick, (run_assemblages, head::aim_heads).in_set(TickSystems::Motor));
 }
 
 /// What each schema of the running assemblage wants, in the team frame, and what became of it.
@@ -69,7 +55,7 @@ const STANDSTILL: f32 = 0.05;
 /// Slowest that a robot with somewhere to go drives, as a share of its activity's speed.
 const CRAWL: f32 = 0.25;
 
-type Moved<'a> = (Mind, &'a Activity, Intents, &'a mut Contributions, &'a mut MotorDice);
+type Moved<'a> = (Decider, &'a Activity, Intents, &'a mut Contributions, &'a mut MotorDice);
 
 /// What a robot wants its motors to do.
 #[derive(QueryData)]
@@ -83,16 +69,16 @@ fn run_assemblages(
     clock: Res<Clock>,
     pitch: Res<Pitch>,
     strategies: Res<Strategies>,
-    ball: Single<&Ball>,
+    ball: Res<BallKind>,
     mut robots: Query<Moved, Without<OffPitch>>,
 ) {
     for (mut mind, activity, mut intents, mut contributions, mut dice) in &mut robots {
-        let wits = &mind.wits;
-        if !wits.robot.decides(&clock) {
+        let input = &mind.input;
+        if !input.robot.decides(&clock) {
             continue;
         }
-        let strategy = strategies.of(wits.id.team);
-        let senses = perception(wits, activity, strategy, (&clock, &pitch, &ball));
+        let strategy = strategies.of(input.id.team);
+        let senses = perception(input, activity, strategy, (&clock, &pitch, &ball));
         let state = strategy.state(activity.machine(strategy), activity.state);
         let memory = &mut *mind.memory;
         match state.assemblage {
@@ -104,14 +90,14 @@ fn run_assemblages(
                 contributions.sum = Vec2::ZERO;
             }
         }
-        if let (RobotState::Ready, Some(place)) = (wits.orders.state, wits.orders.place) {
+        if let (RobotState::Ready, Some(place)) = (input.orders.state, input.orders.place) {
             contributions.vectors.clear();
             *intents.kick = KickIntent::Nothing;
-            *intents.steering = walk_to_place(wits.model, place, wits.odometry.pose.heading);
+            *intents.steering = walk_to_place(input.model, place, input.odometry.pose.heading);
             continue;
         }
-        *intents.kick = kick_of(state, &wits.robot.kind);
-        *intents.steering = intend(contributions.sum, state, &senses, memory, wits.odometry.pose.heading);
+        *intents.kick = kick_of(state, &input.robot.kind);
+        *intents.steering = intend(contributions.sum, state, &senses, memory, input.odometry.pose.heading);
     }
 }
 

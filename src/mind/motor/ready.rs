@@ -2,10 +2,10 @@
 
 use bevy::prelude::*;
 
-use super::SteeringIntent;
 use crate::geometry::{Pose, angle, wrap_angle};
 use crate::mind::schemas::{attraction, avoidance};
 use crate::mind::world_model::WorldModel;
+use crate::robot::SteeringIntent;
 
 /// It slows down within the first of these distances of its place, and stands within the second, m.
 const PLACE: (f32, f32) = (0.4, 0.15);

@@ -1,7 +1,8 @@
 //! The percepts and features of a strategy, worked out from one robot's beliefs. Pure: beliefs, time and memory are arguments.
 
 #[cfg(test)]
-pub(crate) mod fixture;
+pub(in crate::mind) mod fixture;
+mod input;
 mod memory;
 mod teammates;
 #[cfg(test)]
@@ -10,6 +11,7 @@ mod tests;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
+pub use input::{Decider, DecisionInput, perception};
 pub use memory::Memory;
 
 use crate::geometry::{Pose, Zone, angle, wrap_angle};

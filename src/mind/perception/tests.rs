@@ -1,20 +1,20 @@
 //! Every word of the strategy language that stands for a point, a set or a statement, with its boundaries.
 
-use super::fixture::Situation;
 use super::*;
 use crate::ids::Team::{Away, Home};
+use crate::mind::perception::fixture::Situation;
 use crate::strategy::language::Feature::{
-    After, All, Always, Any, BallInScoop, BallSeenWithin, BehindBall, Facing, HoldFor, In, Known, Lasting,
-    Near, NearLatch, NearerThan, Not, Stalled, Watchdog,
+    self, After, All, Always, Any, BallInScoop, BallSeenWithin, BehindBall, Facing, HoldFor, In, Known,
+    Lasting, Near, NearLatch, NearerThan, Not, Stalled, Watchdog,
 };
 use crate::strategy::language::Point::{
-    At, Average, Ball, BallIn, Closest, Homebase, Intercept, Into, Midpoint, Moved, OurGoal, Own, SweetSpot,
-    TheirGoal, Toward,
+    self, At, Average, Ball, BallIn, Closest, Homebase, Intercept, Into, Midpoint, Moved, OurGoal, Own,
+    SweetSpot, TheirGoal, Toward,
 };
 use crate::strategy::language::Points::{
-    FartherThan, Opponents, Remember, Shifted, Teammates, These, Union, Walls, Within, WithinOrClosest,
+    self, FartherThan, Opponents, Remember, Shifted, Teammates, These, Union, Walls, Within, WithinOrClosest,
 };
-use crate::strategy::language::{Feature, Point, Points, ZoneName};
+use crate::strategy::language::ZoneName;
 
 fn v(x: f32, y: f32) -> Vec2 {
     Vec2::new(x, y)

@@ -7,14 +7,12 @@ use super::picture::TeamPicture;
 use crate::clock::Clock;
 use crate::comms::messages::{Book, Inbox, Message};
 use crate::comms::tcm::TcmClient;
-use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
+use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::world_model::WorldModel;
 use crate::protocol::b3p::{B3p, Distance, Input, Settings};
-use crate::protocol::role_swap::Number;
 use crate::robot::{OffPitch, Robot};
 use crate::strategy::teamwork::{BallBooking, Mechanism};
-use crate::strategy::{Strategies, Strategy};
+use crate::strategy::{Activity, Strategies, Strategy};
 
 /// A robot's side of the ball booking.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
@@ -26,7 +24,7 @@ pub enum Standing {
     #[default]
     Free,
     Own,
-    Mate(Number),
+    Mate(PlayerNumber),
 }
 
 impl Booking {

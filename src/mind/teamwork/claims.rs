@@ -3,7 +3,8 @@
 use smallvec::SmallVec;
 
 use crate::comms::messages::HaveBall;
-use crate::protocol::role_swap::{Number, RoleIndex};
+use crate::ids::PlayerNumber;
+use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::Teamwork;
 
 /// The claims that a robot has heard of.
@@ -13,7 +14,7 @@ pub struct Claims(SmallVec<[Claim; 8]>);
 /// What a team mate said last about having the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Claim {
-    pub by: Number,
+    pub by: PlayerNumber,
     pub role: RoleIndex,
     pub have_ball: bool,
     /// Milliseconds on the sender's clock.
@@ -24,7 +25,7 @@ pub struct Claim {
 
 impl Claims {
     /// Takes note of a have-ball message; one that is older than what is known is overtaken news.
-    pub fn hear(&mut self, by: Number, message: &HaveBall, tick: u64) {
+    pub fn hear(&mut self, by: PlayerNumber, message: &HaveBall, tick: u64) {
         let claim =
             Claim { by, role: message.role, have_ball: message.have_ball, time: message.time, heard: tick };
         match self.0.iter_mut().find(|known| known.by == claim.by) {
@@ -43,9 +44,9 @@ impl Claims {
     /// number.
     pub fn holder(
         &self,
-        own: Option<(Number, RoleIndex)>,
+        own: Option<(PlayerNumber, RoleIndex)>,
         teamwork: &Teamwork,
-    ) -> Option<(Number, RoleIndex)> {
+    ) -> Option<(PlayerNumber, RoleIndex)> {
         let heard = self.0.iter().filter(|claim| claim.have_ball).map(|claim| (claim.by, claim.role));
         heard.chain(own).reduce(|best, other| {
             let (best_role, other_role) = (usize::from(best.1), usize::from(other.1));
@@ -64,7 +65,7 @@ mod tests {
         Teamwork { ranks: vec![0, 1, 2, 3], ..Teamwork::default() }
     }
 
-    fn hear(claims: &mut Claims, robot: Number, have_ball: bool, time: u32, tick: u64) {
+    fn hear(claims: &mut Claims, robot: PlayerNumber, have_ball: bool, time: u32, tick: u64) {
         claims.hear(robot, &HaveBall { time, robot, have_ball, role: robot }, tick);
     }
 

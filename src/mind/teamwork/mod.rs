@@ -8,7 +8,6 @@ mod claims;
 mod goalie;
 mod listen;
 mod picture;
-pub mod policy;
 mod reports;
 mod swap;
 mod talk;
@@ -31,7 +30,3 @@ pub(super) fn plugin(app: &mut App) {
         (listen::hear_news, swap::swap_roles, talk::claim_ball, booking::book_ball, talk::tell_team).chain();
     app.add_systems(Tick, in_order.in_set(TickSystems::Teamwork));
 }
-
-/// A robot's role: an index into its strategy's roles.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
-pub struct Role(pub usize);

@@ -6,11 +6,12 @@ use smallvec::SmallVec;
 use super::booking::Standing;
 use super::claims::Claims;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
-use super::policy::Valued;
 use super::reports::BallReports;
 use crate::clock::Clock;
 use crate::comms::messages::Values;
-use crate::protocol::role_swap::{Assignment, Number, RoleIndex};
+use crate::ids::PlayerNumber;
+use crate::protocol::policy::Valued;
+use crate::protocol::role_swap::{Assignment, RoleIndex};
 use crate::strategy::Strategy;
 
 /// A robot's picture of its team; written by the Teamwork stage.
@@ -22,10 +23,10 @@ pub struct TeamPicture {
     /// Whether the robot has claimed the ball and nobody above it has.
     pub has_ball: bool,
     /// The team mate whose claim of the ball holds, and its role.
-    pub carrier: Option<(Number, RoleIndex)>,
+    pub carrier: Option<(PlayerNumber, RoleIndex)>,
     pub goalie: GoalieWhereabouts,
     /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.
-    pub values: SmallVec<[(Number, Values, u64); 4]>,
+    pub values: SmallVec<[(PlayerNumber, Values, u64); 4]>,
     /// What the team mates said last of the ball.
     pub reports: BallReports,
     /// Who has booked the ball, in this robot's eyes.
@@ -65,19 +66,19 @@ impl TeamPicture {
         }
     }
 
-    pub(super) fn values_of(&self, number: Number, clock: &Clock) -> Option<Valued> {
+    pub(super) fn values_of(&self, number: PlayerNumber, clock: &Clock) -> Option<Valued> {
         let (_, said, heard) = self.values.iter().find(|(from, ..)| *from == number)?;
         let age = clock.tick.saturating_sub(*heard) as f32 * clock.dt;
         Some(Valued { values: said.values.iter().copied().collect(), wish: said.wish, age })
     }
 
     /// The team mate that is believed to play a role.
-    pub fn holder_of(&self, role: RoleIndex) -> Option<Number> {
-        self.roles.roles().iter().position(|held| *held == role).map(|number| number as Number)
+    pub fn holder_of(&self, role: RoleIndex) -> Option<PlayerNumber> {
+        self.roles.roles().iter().position(|held| *held == role).map(|number| number as PlayerNumber)
     }
 
     /// Takes note that a robot plays a role. Nobody else is believed to play it then: whoever was gets the robot's former one.
-    pub fn note_role(&mut self, robot: Number, role: RoleIndex) {
+    pub fn note_role(&mut self, robot: PlayerNumber, role: RoleIndex) {
         let Some(before) = self.roles.of(robot) else { return };
         if let Some(other) = self.holder_of(role).filter(|other| *other != robot) {
             self.roles.set(other, before);

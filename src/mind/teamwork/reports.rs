@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 
 use crate::comms::messages::BallReport;
-use crate::protocol::role_swap::Number;
+use crate::ids::PlayerNumber;
 
 /// What a robot's team mates said last of the ball.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub struct BallReports(SmallVec<[Reported; 4]>);
 /// What one of them said.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reported {
-    pub by: Number,
+    pub by: PlayerNumber,
     /// m in the team frame.
     pub position: Vec2,
     /// Milliseconds on the sender's clock when it saw the ball there.
@@ -24,7 +24,7 @@ pub struct Reported {
 
 impl BallReports {
     /// Takes note of a report; one that was overtaken by a later one is no news.
-    pub fn hear(&mut self, by: Number, report: &BallReport, tick: u64) {
+    pub fn hear(&mut self, by: PlayerNumber, report: &BallReport, tick: u64) {
         let seen = report.time.saturating_sub((report.age * 1000.0) as u32);
         let reported = Reported { by, position: report.position, seen, heard: tick };
         match self.0.iter_mut().find(|known| known.by == by) {

@@ -4,25 +4,23 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::Role;
 use super::picture::{TeamPicture, kick_off_roles};
-use super::policy::{ColumnValues, Knowledge, Player, PolicyState, Valued};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, Message};
 use crate::comms::tcm::TcmClient;
 use crate::geometry::angle;
-use crate::ids::RobotId;
+use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::world_model::WorldModel;
+use crate::pitch::BallKind;
 use crate::pitch::Pitch;
+use crate::protocol::policy::{ColumnValues, Knowledge, Player, PolicyState, Valued};
 use crate::protocol::role_swap::{
-    Assignment, Effect, Hardened, Input, Number, Outcome, Paper, Phase, Reassignment, RoleIndex, RoleSwap,
-    Timer,
+    Assignment, Effect, Hardened, Input, Outcome, Paper, Phase, Reassignment, RoleIndex, RoleSwap, Timer,
 };
 use crate::rng::{Dice, Seed};
 use crate::robot::{OffPitch, Recall, Robot};
 use crate::strategy::teamwork::{Mechanism, Protocol, RoleSwapSpec, Timers};
-use crate::strategy::{Strategies, Strategy};
-use crate::world::ball::Ball;
+use crate::strategy::{Role, Strategies, Strategy};
 
 /// A robot's part in role swaps.
 #[derive(Component, Clone, Debug)]
@@ -94,7 +92,7 @@ pub(super) fn swap_roles(
     clock: Res<Clock>,
     pitch: Res<Pitch>,
     strategies: Res<Strategies>,
-    ball: Single<&Ball>,
+    ball: Res<BallKind>,
     mut robots: Query<Swapper>,
 ) {
     for mut robot in &mut robots {
@@ -106,7 +104,7 @@ pub(super) fn swap_roles(
         robot.receive(&spec.timers, &clock);
         robot.time_out(&spec.timers, &clock);
         if !robot.off_pitch && robot.model.is_localised() {
-            robot.decide(spec, strategy, &pitch, ball.kind.radius, &clock);
+            robot.decide(spec, strategy, &pitch, ball.radius, &clock);
         }
         robot.take_role();
     }
@@ -175,9 +173,11 @@ impl SwapperItem<'_, '_> {
 
     /// Whose locks an attempt needs: everybody's in the paper; in the hardened version those heard of lately, since a robot that
     /// is off would block all swaps for good, and the configurations mend whatever it missed.
-    fn participants(&self, protocol: Protocol, players: usize) -> SmallVec<[Number; 8]> {
+    fn participants(&self, protocol: Protocol, players: usize) -> SmallVec<[PlayerNumber; 8]> {
         match protocol {
-            Protocol::Paper(_) => (0..players as Number).filter(|number| *number != self.id.number).collect(),
+            Protocol::Paper(_) => {
+                (0..players as PlayerNumber).filter(|number| *number != self.id.number).collect()
+            }
             Protocol::Hardened | Protocol::HardenedWithout(_) => {
                 self.model.mates.iter().map(|mate| mate.number).collect()
             }

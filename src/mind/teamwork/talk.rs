@@ -3,7 +3,6 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::Role;
 use super::picture::TeamPicture;
 use super::swap::Swapping;
 use crate::clock::Clock;
@@ -11,13 +10,12 @@ use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Position, Values}
 use crate::comms::tcm::TcmClient;
 use crate::geometry::unit;
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
 use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::RoleIndex;
 use crate::robot::{OffPitch, Robot};
 use crate::strategy::teamwork::{Mechanism, Talk};
-use crate::strategy::{State, Strategies, Strategy};
+use crate::strategy::{Activity, Role, State, Strategies, Strategy};
 
 /// A robot that may claim the ball.
 #[derive(QueryData)]

@@ -5,10 +5,10 @@ use crate::clock::Clock;
 use crate::comms::messages::Values;
 use crate::data::{AssetFolder, AssetKind};
 use crate::ids::{RobotId, Team};
-use crate::mind::perception::fixture::idle;
 use crate::protocol::role_swap::{Assignment, Phase};
 use crate::rng::Seed;
 use crate::strategy::Strategy;
+use crate::testing::idle;
 
 fn picture() -> TeamPicture {
     TeamPicture::of(Assignment::new([0, 1, 2, 3]))

@@ -9,6 +9,7 @@ mod tests;
 
 use std::collections::VecDeque;
 
+use crate::robot::MemorySpans;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use smallvec::SmallVec;
@@ -18,14 +19,12 @@ pub use ball_filter::{BallFilter, roll_on};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, Message};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
-use crate::ids::{RobotId, Team};
+use crate::ids::{PlayerNumber, RobotId, Team};
 use crate::pitch::Pitch;
-use crate::protocol::role_swap::Number;
-use crate::robot::{OffPitch, Robot};
+use crate::robot::handling::Handling;
+use crate::robot::{Eyes, Frame, Odometry, OffPitch, Percepts, Robot, range_deviation, should_be_seen};
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::Strategies;
-use crate::world::handling::Handling;
-use crate::world::sense::{Eyes, Eyesight, Frame, Odometry, Percepts, range_deviation, should_be_seen};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));
@@ -63,7 +62,7 @@ pub struct BallBelief {
 /// A team mate that has told where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MateBelief {
-    pub number: Number,
+    pub number: PlayerNumber,
     /// m, where it believed itself to be.
     pub position: Vec2,
     /// A unit vector.
@@ -112,7 +111,7 @@ impl WorldModel {
         self.is_localised
     }
 
-    pub fn mate(&self, number: Number) -> Option<&MateBelief> {
+    pub fn mate(&self, number: PlayerNumber) -> Option<&MateBelief> {
         self.mates.iter().find(|mate| mate.number == number)
     }
 
@@ -278,8 +277,7 @@ impl WorldModel {
         self.mates.retain(|mate| tick.saturating_sub(mate.heard) <= memory);
     }
 
-    fn forget(&mut self, eyesight: &Eyesight, clock: &Clock) {
-        let spans = eyesight.sensing.memory;
+    fn forget(&mut self, spans: MemorySpans, clock: &Clock) {
         let age = |seen: u64| clock.tick.saturating_sub(seen) as f32 * clock.dt;
         if self.misses >= MISSES || self.ball.is_some_and(|ball| age(ball.seen) > spans.ball) {
             (self.ball, self.filter, self.misses) = (None, None, 0);
@@ -319,7 +317,6 @@ struct Mind {
     id: &'static RobotId,
     robot: &'static Robot,
     inbox: &'static Inbox,
-    eyesight: &'static Eyesight,
     percepts: &'static Percepts,
     odometry: &'static Odometry,
     handling: &'static Handling,
@@ -333,7 +330,7 @@ fn update_world_models(
     mut robots: Query<Mind, Without<OffPitch>>,
 ) {
     for mind in &mut robots {
-        let MindItem { id, robot, inbox, eyesight, percepts, odometry, handling, mut model } = mind;
+        let MindItem { id, robot, inbox, percepts, odometry, handling, mut model } = mind;
         if !robot.decides(&clock) {
             continue;
         }
@@ -342,9 +339,9 @@ fn update_world_models(
         let fresh = percepts.frame.as_ref().filter(|frame| Some(frame.taken) > model.last_frame);
         if let Some(frame) = fresh {
             let since = frame.taken - model.last_frame.unwrap_or(frame.taken);
-            model.localise(frame, &eyesight.sensing.eyes);
-            model.see_ball(frame, &eyesight.sensing.eyes, since as f32 * clock.dt);
-            model.see_robots(frame, &eyesight.sensing.eyes);
+            model.localise(frame, &robot.sensing.eyes);
+            model.see_ball(frame, &robot.sensing.eyes, since as f32 * clock.dt);
+            model.see_robots(frame, &robot.sensing.eyes);
             model.last_frame = Some(frame.taken);
         }
         if let Some(chin) = robot.kind.chin.filter(|_| handling.holds()) {
@@ -359,6 +356,6 @@ fn update_world_models(
         }
         model.hear(inbox, clock.tick);
         model.forget_mates(clock.tick, clock.ticks(strategies.of(id.team).teamwork.talk.position_memory));
-        model.forget(eyesight, &clock);
+        model.forget(robot.sensing.memory, &clock);
     }
 }

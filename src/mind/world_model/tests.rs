@@ -1,5 +1,6 @@
 //! One robot's beliefs, fed with odometry and frames by hand: decisions in every third tick, frames whenever a test says so.
 
+use crate::testing::perfect_sensing;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
@@ -8,9 +9,9 @@ use bevy::ecs::system::RunSystemOnce;
 use super::*;
 use crate::data::Source;
 use crate::ids::Team::{Away, Home};
-use crate::mind::perception::fixture::{cye, idle, pitch};
 use crate::rng::Seed;
-use crate::world::sense::{MemorySpans, Sensing, reckon};
+use crate::robot::{MemorySpans, Sensing, reckon};
+use crate::testing::{cye, idle, pitch};
 
 struct Bench {
     world: World,
@@ -25,10 +26,6 @@ fn real() -> Sensing {
     Source::new("eyes.ron", text).parse().expect("the shipped eyes are sound")
 }
 
-fn perfect() -> Sensing {
-    Sensing { name: "perfect".into(), eyes: Eyes::Perfect, memory: MemorySpans { ball: 3.0, robots: 2.0 } }
-}
-
 impl Bench {
     fn new(sensing: Sensing, start: Pose) -> Bench {
         let (mut world, id) = (World::new(), RobotId::new(Home, 0));
@@ -37,10 +34,9 @@ impl Bench {
         world.insert_resource(pitch());
         let strategy = Arc::new(idle());
         world.insert_resource(Strategies([strategy.clone(), strategy]));
-        let robot = Robot::new(Arc::new(cye()), &clock);
-        let eyesight = Eyesight::new(Arc::new(sensing), Seed(1), id);
+        let robot = Robot::new(Arc::new(cye()), Arc::new(sensing), &clock);
         let body = (Odometry::new(Seed(1), id), Handling::new(Seed(1), id));
-        let senses = (eyesight, Percepts::default(), body);
+        let senses = (Percepts::default(), body);
         let robot = world.spawn((id, robot, senses, Inbox::default(), WorldModel::told(start))).id();
         let mut bench = Bench { world, robot, start };
         bench.decide(0);
@@ -163,7 +159,7 @@ fn a_rolling_ball_is_believed_where_it_is_now_and_not_where_the_frame_showed_it(
 
 #[test]
 fn between_frames_a_rolling_ball_rolls_on_and_slows_down() {
-    let mut bench = Bench::new(perfect(), Pose::default());
+    let mut bench = Bench::new(perfect_sensing(), Pose::default());
     for tick in (0..=30).step_by(3) {
         bench.sees(tick, Some(v(1.0 + 0.6 * tick as f32 / 60.0, 0.0)), &[]);
     }
@@ -178,7 +174,7 @@ fn between_frames_a_rolling_ball_rolls_on_and_slows_down() {
 
 #[test]
 fn a_ball_that_rolls_away_is_not_believed_far_outside_the_pitch() {
-    let mut bench = Bench::new(perfect(), Pose::new(3.0, 2.0, 0.0));
+    let mut bench = Bench::new(perfect_sensing(), Pose::new(3.0, 2.0, 0.0));
     for tick in (0..=30).step_by(3) {
         bench.sees(tick, Some(v(2.0 + 2.0 * tick as f32 / 60.0, 2.0)), &[]);
     }
@@ -217,7 +213,7 @@ fn a_fix_is_believed_in_part_a_jump_of_it_at_once_and_a_perfect_one_always() {
     assert_pose(believed(real(), Pose::new(0.9, 0.0, 0.5)), Pose::new(0.18, 0.0, 0.1));
     assert_pose(believed(real(), Pose::new(0.0, -1.1, 0.5)), Pose::new(0.0, -1.1, 0.5));
     assert_pose(believed(real(), Pose::new(0.1, 0.0, -0.8)), Pose::new(0.1, 0.0, -0.8));
-    assert_pose(believed(perfect(), Pose::new(0.1, 0.0, 0.1)), Pose::new(0.1, 0.0, 0.1));
+    assert_pose(believed(perfect_sensing(), Pose::new(0.1, 0.0, 0.1)), Pose::new(0.1, 0.0, 0.1));
 }
 
 #[test]

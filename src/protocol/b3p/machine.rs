@@ -1,7 +1,7 @@
 //! A robot's side of the ball booking.
 
 use super::{Book, Booking, Distance, Input, Rules, Settings, Term, Tick, Update};
-use crate::protocol::role_swap::Number;
+use crate::ids::PlayerNumber;
 
 /// A robot's side of the protocol: what it believes about the ball, and what it does about it.
 ///
@@ -10,7 +10,7 @@ use crate::protocol::role_swap::Number;
 /// the ball may stay with a booker that is not the nearest, but never longer than the timeout with one that is silent.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct B3p {
-    me: Number,
+    me: PlayerNumber,
     settings: Settings,
     booking: Option<Booking>,
     /// The greatest term that this robot knows of.
@@ -21,7 +21,7 @@ pub struct B3p {
 }
 
 impl B3p {
-    pub fn new(me: Number, settings: Settings) -> B3p {
+    pub fn new(me: PlayerNumber, settings: Settings) -> B3p {
         B3p { me, settings, booking: None, newest: 0, announced: 0, sees: false }
     }
 
@@ -164,7 +164,7 @@ impl B3p {
         self.booking.map(|Booking { distance, term, key, .. }| Book { distance, term, key })
     }
 
-    fn believes(&self, now: Tick, from: Number, book: &Book) -> bool {
+    fn believes(&self, now: Tick, from: PlayerNumber, book: &Book) -> bool {
         let Some(known) = &self.booking else { return !self.counts_terms() || book.term >= self.newest };
         let free = self.has_expired(known, now);
         let renews = from == known.robot_booker;

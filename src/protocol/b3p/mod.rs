@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub use distance::Distance;
 pub use machine::B3p;
 
-use crate::protocol::role_swap::Number;
+use crate::ids::PlayerNumber;
 
 /// A moment on a robot's own clock.
 pub type Tick = u64;
@@ -64,7 +64,7 @@ pub struct Settings {
 /// that there is one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Booking {
-    pub robot_booker: Number,
+    pub robot_booker: PlayerNumber,
     /// The booker's distance when it was last heard; infinite if it has let the ball go.
     pub distance: Distance,
     /// When the booking was made or last renewed, on the clock of the robot that believes this.
@@ -89,7 +89,7 @@ pub enum Input {
     /// One turn of the robot's loop. Without a distance it does not know where the ball is.
     Turn { distance: Option<Distance> },
     /// A team mate announced a booking.
-    Hear { from: Number, book: Book },
+    Hear { from: PlayerNumber, book: Book },
     /// The robot is penalised: it frees the ball if it has it booked.
     Withdraw,
 }

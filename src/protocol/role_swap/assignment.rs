@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::{Number, RoleIndex, Sequence};
+use super::{RoleIndex, Sequence};
+use crate::ids::PlayerNumber;
 
 /// The role of every robot of a team, by number.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -15,7 +16,7 @@ impl Assignment {
     }
 
     /// The role of a robot; `None` for a number that the team does not have.
-    pub fn of(&self, robot: Number) -> Option<RoleIndex> {
+    pub fn of(&self, robot: PlayerNumber) -> Option<RoleIndex> {
         self.0.get(usize::from(robot)).copied()
     }
 
@@ -24,7 +25,7 @@ impl Assignment {
     }
 
     /// Gives a robot a role; a number that the team does not have changes nothing.
-    pub fn set(&mut self, robot: Number, role: RoleIndex) {
+    pub fn set(&mut self, robot: PlayerNumber, role: RoleIndex) {
         if let Some(place) = self.0.get_mut(usize::from(robot)) {
             *place = role;
         }
@@ -46,7 +47,7 @@ impl Assignment {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Configuration {
     pub epoch: Sequence,
-    pub initiator: Number,
+    pub initiator: PlayerNumber,
     pub assignment: Assignment,
 }
 
@@ -57,7 +58,7 @@ pub enum Reassignment {
     Roles(SmallVec<[(RoleIndex, RoleIndex); 4]>),
     /// These robots take these roles. The others keep theirs where they are still free, and share out the rest in order of
     /// their numbers.
-    Robots(SmallVec<[(Number, RoleIndex); 4]>),
+    Robots(SmallVec<[(PlayerNumber, RoleIndex); 4]>),
 }
 
 impl Reassignment {
@@ -76,7 +77,7 @@ impl Reassignment {
     }
 }
 
-fn share_out(wanted: &[(Number, RoleIndex)], current: &Assignment, all: &Assignment) -> Assignment {
+fn share_out(wanted: &[(PlayerNumber, RoleIndex)], current: &Assignment, all: &Assignment) -> Assignment {
     let mut free: SmallVec<[RoleIndex; 8]> = all.roles().into();
     let mut take = |role: RoleIndex| {
         let place = free.iter().position(|candidate| *candidate == role)?;

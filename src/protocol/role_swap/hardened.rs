@@ -8,9 +8,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Assignment, Configuration, Effect, Effects, Holding, Input, Lock, Message, Number, Numbers, Order,
-    Outcome, Phase, Reassignment, RoleIndex, Sequence, Timer, participants,
+    Assignment, Configuration, Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome,
+    Phase, Reassignment, RoleIndex, Sequence, Timer, participants,
 };
+use crate::ids::PlayerNumber;
 
 /// Something in the design that an experiment leaves out, to show what it is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -26,7 +27,7 @@ pub enum Ingredient {
 /// A robot's side of the protocol, hardened.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hardened {
-    me: Number,
+    me: PlayerNumber,
     all: Assignment,
     without: Option<Ingredient>,
     configuration: Configuration,
@@ -37,7 +38,7 @@ pub struct Hardened {
 }
 
 /// Identifies an attempt, and the configuration that it commits.
-type Id = (Sequence, Number);
+type Id = (Sequence, PlayerNumber);
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 struct Held {
@@ -54,14 +55,14 @@ enum Attempt {
 
 impl Hardened {
     /// `all` are the roles of the whole team at the start: the configuration of epoch 0.
-    pub fn new(me: Number, all: Assignment) -> Hardened {
+    pub fn new(me: PlayerNumber, all: Assignment) -> Hardened {
         let configuration = Configuration { epoch: 0, initiator: 0, assignment: all.clone() };
         let (seen, attempt) = (identity(&configuration), Attempt::Idle);
         Hardened { me, all, without: None, configuration, seen, held: None, attempt }
     }
 
     /// For experiments that show what an ingredient is for.
-    pub fn without(me: Number, all: Assignment, ingredient: Ingredient) -> Hardened {
+    pub fn without(me: PlayerNumber, all: Assignment, ingredient: Ingredient) -> Hardened {
         Hardened { without: Some(ingredient), ..Hardened::new(me, all) }
     }
 
@@ -107,7 +108,7 @@ impl Hardened {
     }
 
     /// The robots whose answer this robot, as an initiator, still waits for.
-    pub fn awaited(&self) -> &[Number] {
+    pub fn awaited(&self) -> &[PlayerNumber] {
         match &self.attempt {
             Attempt::Idle => &[],
             Attempt::Locks { awaited, .. } | Attempt::Acks { awaited, .. } => awaited,
@@ -123,7 +124,7 @@ impl Hardened {
         }
     }
 
-    fn initiate(&mut self, reassignment: Reassignment, named: &[Number], effects: &mut Effects) {
+    fn initiate(&mut self, reassignment: Reassignment, named: &[PlayerNumber], effects: &mut Effects) {
         let target = reassignment.apply(&self.configuration.assignment, &self.all);
         let newest = self.seen.0.max(self.configuration.epoch);
         let Some(sequence) = newest.checked_add(1) else { return };
@@ -140,7 +141,7 @@ impl Hardened {
         self.attempt = Attempt::Locks { sequence, reassignment, awaited: others.clone(), others };
     }
 
-    fn receive(&mut self, from: Number, message: Message, effects: &mut Effects) {
+    fn receive(&mut self, from: PlayerNumber, message: Message, effects: &mut Effects) {
         match message {
             Message::Lock { sequence } => self.grant(from, sequence, effects),
             Message::AckLock { sequence, holds: Holding::Configuration(configuration) } => {
@@ -155,7 +156,7 @@ impl Hardened {
         }
     }
 
-    fn grant(&mut self, by: Number, sequence: Sequence, effects: &mut Effects) {
+    fn grant(&mut self, by: PlayerNumber, sequence: Sequence, effects: &mut Effects) {
         let id = (sequence, by);
         let newer = id > self.seen && id > identity(&self.configuration);
         self.seen = self.seen.max(id);
@@ -167,7 +168,13 @@ impl Hardened {
         }
     }
 
-    fn stage(&mut self, from: Number, sequence: Sequence, assignment: Assignment, effects: &mut Effects) {
+    fn stage(
+        &mut self,
+        from: PlayerNumber,
+        sequence: Sequence,
+        assignment: Assignment,
+        effects: &mut Effects,
+    ) {
         let Some(held) = &mut self.held else { return };
         if held.lock != (Lock { by: from, sequence }) || !assignment.has_roles_of(&self.all) {
             return;
@@ -181,7 +188,7 @@ impl Hardened {
         }
     }
 
-    fn count_lock(&mut self, from: Number, counted: Sequence, effects: &mut Effects) {
+    fn count_lock(&mut self, from: PlayerNumber, counted: Sequence, effects: &mut Effects) {
         let Attempt::Locks { sequence, reassignment, others, awaited } = &mut self.attempt else { return };
         if *sequence != counted || !awaited.contains(&from) {
             return;
@@ -201,7 +208,7 @@ impl Hardened {
         self.attempt = Attempt::Acks { sequence: counted, assignment, awaited };
     }
 
-    fn count_ack(&mut self, from: Number, counted: Sequence, effects: &mut Effects) {
+    fn count_ack(&mut self, from: PlayerNumber, counted: Sequence, effects: &mut Effects) {
         let Attempt::Acks { sequence, assignment, awaited } = &mut self.attempt else { return };
         if *sequence != counted {
             return;

@@ -5,6 +5,8 @@
 //! the acknowledgements (ACKSWAP). Two versions share these four messages: [`Paper`], as figure 7 has it, and [`Hardened`],
 //! which survives what the first does not. When to swap, and to what, is decided elsewhere.
 
+use crate::ids::PlayerNumber;
+
 mod assignment;
 mod hardened;
 mod paper;
@@ -16,14 +18,12 @@ pub use assignment::{Assignment, Configuration, Reassignment};
 pub use hardened::{Hardened, Ingredient};
 pub use paper::{OnMissingAck, Paper, PaperRules, Unlock, WhileInitiating};
 
-/// A robot's number within its team.
-pub type Number = u8;
 /// A role, as an index into the strategy's roles.
 pub type RoleIndex = u8;
 /// Identifies an initiator's attempt: a sequence number in the paper, an epoch in the hardened version.
 pub type Sequence = u32;
 /// Robots by their numbers, in order.
-pub type Numbers = SmallVec<[Number; 8]>;
+pub type Numbers = SmallVec<[PlayerNumber; 8]>;
 /// What a step asks for, in order.
 pub type Effects = SmallVec<[Effect; 4]>;
 
@@ -79,7 +79,7 @@ pub enum Input {
         participants: Numbers,
     },
     Receive {
-        from: Number,
+        from: PlayerNumber,
         message: Message,
     },
     /// A position message told a team mate's configuration.
@@ -91,7 +91,7 @@ pub enum Input {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Effect {
     Send {
-        to: Number,
+        to: PlayerNumber,
         message: Message,
     },
     /// Starts the timer anew.
@@ -129,7 +129,7 @@ pub enum Outcome {
 /// Whose attempt a robot is locked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Lock {
-    pub by: Number,
+    pub by: PlayerNumber,
     pub sequence: Sequence,
 }
 
@@ -181,7 +181,7 @@ impl RoleSwap {
     }
 
     /// The robots whose answer this robot, as an initiator, still waits for.
-    pub fn awaited(&self) -> &[Number] {
+    pub fn awaited(&self) -> &[PlayerNumber] {
         match self {
             RoleSwap::Paper(machine) => machine.awaited(),
             RoleSwap::Hardened(machine) => machine.awaited(),
@@ -207,7 +207,7 @@ impl RoleSwap {
 }
 
 /// The robots that an initiator asks: those named that its team has, each once and without itself.
-fn participants(named: &[Number], me: Number, all: &Assignment) -> Numbers {
+fn participants(named: &[PlayerNumber], me: PlayerNumber, all: &Assignment) -> Numbers {
     let mut others: Numbers =
         named.iter().copied().filter(|robot| *robot != me && all.of(*robot).is_some()).collect();
     others.sort_unstable();

@@ -8,9 +8,10 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::{
-    Assignment, Effect, Effects, Holding, Input, Lock, Message, Number, Numbers, Order, Outcome, Phase,
-    Reassignment, RoleIndex, Sequence, Timer, participants,
+    Assignment, Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Phase, Reassignment,
+    RoleIndex, Sequence, Timer, participants,
 };
+use crate::ids::PlayerNumber;
 
 /// What the paper leaves open. The defaults are what its authors implemented.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -56,7 +57,7 @@ pub enum WhileInitiating {
 /// A robot's side of the protocol, as in the paper.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Paper {
-    me: Number,
+    me: PlayerNumber,
     rules: PaperRules,
     at_start: Assignment,
     role: RoleIndex,
@@ -75,14 +76,14 @@ enum Attempt {
 /// What an attempt changes for another robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 struct Change {
-    robot: Number,
+    robot: PlayerNumber,
     from: RoleIndex,
     to: RoleIndex,
 }
 
 impl Paper {
     /// `all` are the roles of the whole team at the start.
-    pub fn new(me: Number, all: Assignment, rules: PaperRules) -> Paper {
+    pub fn new(me: PlayerNumber, all: Assignment, rules: PaperRules) -> Paper {
         let role = all.of(me).unwrap_or_default();
         Paper { me, rules, at_start: all, role, sequence: 0, lock: None, attempt: Attempt::Idle }
     }
@@ -116,7 +117,7 @@ impl Paper {
     }
 
     /// The robots whose answer this robot, as an initiator, still waits for.
-    pub fn awaited(&self) -> &[Number] {
+    pub fn awaited(&self) -> &[PlayerNumber] {
         match &self.attempt {
             Attempt::Idle => &[],
             Attempt::Locks { awaited, .. } | Attempt::Acks { awaited, .. } => awaited,
@@ -137,7 +138,7 @@ impl Paper {
         }
     }
 
-    fn initiate(&mut self, reassignment: Reassignment, named: &[Number]) -> Effects {
+    fn initiate(&mut self, reassignment: Reassignment, named: &[PlayerNumber]) -> Effects {
         let mut effects = Effects::new();
         if self.lock.is_some() || self.attempt != Attempt::Idle {
             return effects;
@@ -156,7 +157,7 @@ impl Paper {
         effects
     }
 
-    fn receive(&mut self, from: Number, message: Message) -> Effects {
+    fn receive(&mut self, from: PlayerNumber, message: Message) -> Effects {
         match message {
             Message::Lock { sequence } => self.grant(from, sequence),
             Message::AckLock { sequence, holds: Holding::Role(role) } if self.has_role(role) => {
@@ -174,7 +175,7 @@ impl Paper {
         self.at_start.roles().contains(&role)
     }
 
-    fn grant(&mut self, by: Number, sequence: Sequence) -> Effects {
+    fn grant(&mut self, by: PlayerNumber, sequence: Sequence) -> Effects {
         let busy = self.attempt != Attempt::Idle && self.rules.while_initiating == WhileInitiating::Refuse;
         if busy || self.lock.is_some() {
             return Effects::new();
@@ -184,7 +185,7 @@ impl Paper {
         [Effect::Send { to: by, message }, Effect::Start(Timer::Lock)].into_iter().collect()
     }
 
-    fn obey(&mut self, from: Number, sequence: Sequence, role: RoleIndex) -> Effects {
+    fn obey(&mut self, from: PlayerNumber, sequence: Sequence, role: RoleIndex) -> Effects {
         if self.lock != Some(Lock { by: from, sequence }) {
             return Effects::new();
         }
@@ -199,7 +200,7 @@ impl Paper {
         [Effect::Send { to: from, message: Message::AckSwap { sequence } }, timer].into_iter().collect()
     }
 
-    fn count_lock(&mut self, from: Number, counted: Sequence, role: RoleIndex) -> Effects {
+    fn count_lock(&mut self, from: PlayerNumber, counted: Sequence, role: RoleIndex) -> Effects {
         let mut effects = Effects::new();
         if let Attempt::Locks { awaited, current, .. } = &mut self.attempt
             && counted == self.sequence
@@ -221,7 +222,7 @@ impl Paper {
         current.set(self.me, self.role);
         let target = reassignment.apply(current, &self.at_start);
         let own = target.of(self.me).unwrap_or(self.role);
-        let change = |robot: &Number| {
+        let change = |robot: &PlayerNumber| {
             Some(Change { robot: *robot, from: current.of(*robot)?, to: target.of(*robot)? })
         };
         let changes: SmallVec<[Change; 8]> = others.iter().filter_map(change).collect();
@@ -241,7 +242,7 @@ impl Paper {
         effects.push(Effect::Finished(Outcome::Completed));
     }
 
-    fn count_ack(&mut self, from: Number, counted: Sequence) -> Effects {
+    fn count_ack(&mut self, from: PlayerNumber, counted: Sequence) -> Effects {
         let mut effects = Effects::new();
         if let Attempt::Acks { awaited, own, rolls_back, .. } = &mut self.attempt
             && counted == self.sequence

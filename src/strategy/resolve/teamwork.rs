@@ -2,7 +2,7 @@
 
 use super::{Resolver, Result};
 use crate::data::{Bound, Field};
-use crate::mind::teamwork::policy::Cast;
+use crate::protocol::policy::Cast;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
     BallBooking, CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,

@@ -3,6 +3,7 @@
 //! Pilot and strategy share the limits of speed, acceleration and force.
 
 mod differential;
+mod neck;
 mod walker;
 mod wheels;
 
@@ -17,19 +18,20 @@ pub use wheels::{Rigid, push_wheels};
 use crate::clock::Clock;
 use crate::geometry::wrap_angle;
 use crate::ids::RobotId;
-use crate::mind::motor::SteeringIntent;
+use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{
-    DifferentialDrive, Drive, DriveCommand, Gait, Robot, RobotBodies, TrailerKind, Walker, WheelSpeeds,
+    DifferentialDrive, Drive, DriveCommand, Gait, Odometry, Orders, Robot, RobotBodies, SteeringIntent,
+    TrailerKind, Walker, WheelSpeeds,
 };
 use crate::schedule::{Tick, TickSystems};
-use crate::world::handling::Handling;
 use crate::world::physics::Bodies;
-use crate::world::referee::Orders;
-use crate::world::sense::Odometry;
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(Tick, (command_motors, push_bodies).chain().in_set(TickSystems::Drive));
+    app.add_systems(
+        Tick,
+        ((command_motors, push_bodies).chain(), neck::turn_heads).in_set(TickSystems::Drive),
+    );
 }
 
 /// A robot whose motors are told what to do.

@@ -9,9 +9,8 @@ use bevy_rapier2d::rapier::geometry::{Collider, ColliderSet};
 
 use super::wall_boxes;
 use crate::geometry::{Pose, unit};
-use crate::pitch::Pitch;
+use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, TrailerKind, jaws};
-use crate::world::ball::BallKind;
 
 /// The shapes of a body or of several, each with its place as seen from the body's origin.
 #[derive(Clone)]
@@ -127,7 +126,7 @@ mod tests {
     use std::f32::consts::{FRAC_PI_2, PI};
 
     use super::*;
-    use crate::mind::perception::fixture::{BALL, cye, pitch};
+    use crate::testing::{BALL, cye, pitch};
 
     #[test]
     fn a_robot_covers_its_trailer_and_what_its_jaws_cover() {

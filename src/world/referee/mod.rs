@@ -14,7 +14,7 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 
 pub use decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
-pub use orders::{Orders, RobotState};
+pub use orders::orders_of;
 pub use restraints::Restraints;
 pub use rulebook::{
     BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,

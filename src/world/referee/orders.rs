@@ -1,76 +1,24 @@
-//! What the referee tells each robot: in which of the league's six states it is (TeamChaos, section 2, ORGCtrl).
-
-use std::fmt;
-
-use bevy::prelude::*;
-use serde::{Deserialize, Serialize};
+//! Which state of the league's six the referee tells each robot to be in.
 
 use super::rulebook::{KickOffStyle, RuleBook};
 use super::state::{MatchState, Phase};
 use crate::geometry::Pose;
 use crate::ids::RobotId;
+use crate::robot::{Orders, RobotState};
 
-/// The state that a robot is told to be in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum RobotState {
-    /// It stands until the match begins.
-    #[default]
-    Initial,
-    /// It walks to its kick-off place, or is carried there.
-    Ready,
-    /// It stands.
-    Set,
-    Playing,
-    /// It has been taken off and stands outside, or stands where it is until its penalty is over.
-    Penalised,
-    Finished,
-}
-
-/// What a robot was told last; written by the Referee stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Orders {
-    pub state: RobotState,
-    /// Where it should stand at the kick-off, in its team frame; nothing if people put it there.
-    pub place: Option<Pose>,
-}
-
-impl Orders {
-    /// The orders of a robot under these circumstances, with the kick-off place that it was given.
-    pub fn of(robot: RobotId, state: &MatchState, book: &RuleBook, place: Option<Pose>) -> Orders {
-        let told = match state.phase {
-            Phase::Finished => RobotState::Finished,
-            _ if state.is_removed(robot) || state.restraints.is_frozen(robot) => RobotState::Penalised,
-            Phase::Initial => RobotState::Initial,
-            Phase::Ready | Phase::Playing if state.restraints.holds(robot) => RobotState::Set,
-            Phase::Ready => RobotState::Ready,
-            Phase::Set => RobotState::Set,
-            Phase::Playing => RobotState::Playing,
-        };
-        let walks = book.kick_off == KickOffStyle::Walked && !state.restraints.carried;
-        Orders { state: told, place: place.filter(|_| walks) }
-    }
-
-    /// Whether the robot may move by itself.
-    pub fn may_move(&self) -> bool {
-        match self.state {
-            RobotState::Playing => true,
-            RobotState::Ready => self.place.is_some(),
-            RobotState::Initial | RobotState::Set | RobotState::Penalised | RobotState::Finished => false,
-        }
-    }
-}
-
-impl fmt::Display for RobotState {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            RobotState::Initial => "initial",
-            RobotState::Ready => "ready",
-            RobotState::Set => "set",
-            RobotState::Playing => "playing",
-            RobotState::Penalised => "penalised",
-            RobotState::Finished => "finished",
-        })
-    }
+/// The orders of a robot under these circumstances, with the kick-off place that it was given.
+pub fn orders_of(robot: RobotId, state: &MatchState, book: &RuleBook, place: Option<Pose>) -> Orders {
+    let told = match state.phase {
+        Phase::Finished => RobotState::Finished,
+        _ if state.is_removed(robot) || state.restraints.is_frozen(robot) => RobotState::Penalised,
+        Phase::Initial => RobotState::Initial,
+        Phase::Ready | Phase::Playing if state.restraints.holds(robot) => RobotState::Set,
+        Phase::Ready => RobotState::Ready,
+        Phase::Set => RobotState::Set,
+        Phase::Playing => RobotState::Playing,
+    };
+    let walks = book.kick_off == KickOffStyle::Walked && !state.restraints.carried;
+    Orders { state: told, place: place.filter(|_| walks) }
 }
 
 #[cfg(test)]
@@ -87,10 +35,10 @@ mod tests {
         let walked = RuleBook { kick_off: KickOffStyle::Walked, ..RuleBook::default() };
         let mut state = MatchState::new(Team::Home, &carried);
         state.phase = Phase::Ready;
-        assert!(!Orders::of(robot, &state, &carried, place).may_move());
-        assert!(Orders::of(robot, &state, &walked, place).may_move());
+        assert!(!orders_of(robot, &state, &carried, place).may_move());
+        assert!(orders_of(robot, &state, &walked, place).may_move());
         state.remove(robot, 30.0, RemovalReason::Pushing);
-        let penalised = Orders::of(robot, &state, &walked, place);
+        let penalised = orders_of(robot, &state, &walked, place);
         assert_eq!((penalised.state, penalised.may_move()), (RobotState::Penalised, false));
     }
 
@@ -100,7 +48,7 @@ mod tests {
         let book = RuleBook { kick_off: KickOffStyle::Walked, ..RuleBook::default() };
         let told = |restraints: Restraints, phase| {
             let state = MatchState { phase, restraints, ..MatchState::new(Team::Home, &book) };
-            [robot, other].map(|robot| Orders::of(robot, &state, &book, Some(Pose::default())))
+            [robot, other].map(|robot| orders_of(robot, &state, &book, Some(Pose::default())))
         };
         let (set, plays) = (RobotState::Set, RobotState::Playing);
         let stopped = Restraints { stopped: true, ..Restraints::default() };
@@ -121,7 +69,7 @@ mod tests {
         let book = RuleBook::default();
         for phase in [Phase::Initial, Phase::Ready, Phase::Set, Phase::Playing, Phase::Finished] {
             let state = MatchState { phase, ..MatchState::new(Team::Home, &book) };
-            let may_move = Orders::of(robot, &state, &book, None).may_move();
+            let may_move = orders_of(robot, &state, &book, None).may_move();
             assert_eq!(may_move, phase == Phase::Playing, "{phase}");
         }
     }

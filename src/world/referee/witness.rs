@@ -10,10 +10,11 @@ use super::rulebook::RuleBook;
 use super::rules::{Laws, Observation};
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
+use crate::pitch::BallKind;
 use crate::pitch::Pitch;
+use crate::robot::handling::Handling;
 use crate::robot::{DriveCommand, OffPitch, RobotBodies};
 use crate::world::ball::Ball;
-use crate::world::handling::Handling;
 use crate::world::physics::{Bodies, touch};
 
 /// A robot as the referee sees it.
@@ -28,7 +29,7 @@ pub struct Player {
 }
 
 type Players<'w, 's> = Query<'w, 's, Player, Without<OffPitch>>;
-type SeenBall = (&'static Ball, &'static Pose, &'static RapierRigidBodyHandle);
+type SeenBall = (&'static Pose, &'static RapierRigidBodyHandle);
 
 /// All that the referee looks at.
 #[derive(SystemParam)]
@@ -37,19 +38,19 @@ pub(crate) struct Ground<'w, 's> {
     book: Res<'w, RuleBook>,
     bodies: Bodies<'w, 's>,
     simulation: Single<'w, 's, &'static RapierContextSimulation>,
-    ball: Single<'w, 's, SeenBall>,
+    kind: Res<'w, BallKind>,
+    ball: Single<'w, 's, SeenBall, With<Ball>>,
     players: Players<'w, 's>,
 }
 
 impl Ground<'_, '_> {
     pub(super) fn laws(&self) -> Laws<'_> {
-        let (ball, ..) = *self.ball;
-        Laws { pitch: &self.pitch, book: &self.book, ball_radius: ball.kind.radius }
+        Laws { pitch: &self.pitch, book: &self.book, ball_radius: self.kind.radius }
     }
 
     /// Contacts and motion only where a rule asks for them.
     pub(super) fn scene(&self) -> Scene {
-        let (_, pose, body) = *self.ball;
+        let (pose, body) = *self.ball;
         if self.book.watches_contacts() {
             Scene::whole((pose, body), &self.players, &self.bodies, &self.simulation)
         } else {

@@ -1,13 +1,14 @@
 //! What a colour-blob camera makes of the truth: field of view, range, occlusion, misses and noise. Pure but for the dice.
 
+use crate::robot::range_deviation;
 use std::f32::consts::PI;
 
 use bevy::math::ops;
 use bevy::prelude::*;
 
-use super::preset::Camera;
 use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::rng::Dice;
+use crate::robot::Camera;
 
 /// A thing that the camera may see or that may hide another, as seen from the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,11 +54,6 @@ pub fn detection(camera: &Camera, range: f32, reach: f32) -> f32 {
     } else {
         camera.detection * (1.0 - 0.7 * (range - near) / (reach - near))
     }
-}
-
-/// The standard deviation of a measured range, m.
-pub fn range_deviation(camera: &Camera, range: f32) -> f32 {
-    camera.range_floor + camera.range_noise * range * range
 }
 
 /// One look at one thing: a noisy sighting, or nothing.

@@ -2,9 +2,9 @@
 
 use bevy::prelude::*;
 
-use super::preset::{Localisation, OdometryNoise};
-use crate::geometry::{Pose, unit, wrap_angle};
+use crate::geometry::{Pose, wrap_angle};
 use crate::rng::Dice;
+use crate::robot::{Localisation, OdometryNoise};
 
 /// A slowly drifting error: a first-order autoregressive process around zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -42,12 +42,6 @@ impl PoseError {
     }
 }
 
-/// Moves a dead-reckoned pose by what wheels or legs report: a way ahead and to the left in metres, and a turn in radians.
-pub fn reckon(pose: Pose, way: Vec2, turn: f32) -> Pose {
-    let middle = pose.heading + turn / 2.0;
-    Pose { position: pose.position + unit(middle).rotate(way), heading: wrap_angle(pose.heading + turn) }
-}
-
 /// The error of the wheels' report over a way of `distance` metres: ahead in metres, turn in radians.
 pub fn odometry_error(noise: &OdometryNoise, distance: f32, dice: &mut Dice) -> (f32, f32) {
     let ahead = dice.normal(noise.distance) * distance.sqrt();
@@ -59,6 +53,7 @@ pub fn odometry_error(noise: &OdometryNoise, distance: f32, dice: &mut Dice) -> 
 mod tests {
     use super::*;
     use crate::rng::Seed;
+    use crate::robot::reckon;
 
     const DRIFT: Localisation =
         Localisation { position: 0.2, heading: 5.0, drift_time: 10.0, jump_time: 1e9 };

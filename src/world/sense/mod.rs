@@ -2,66 +2,44 @@
 //!
 //! A camera takes frames at its own rate, each arrives after its latency. The wheels report at every tick.
 
+use crate::robot::Camera;
+use crate::robot::Eyes;
+use crate::robot::Frame;
+use crate::robot::Odometry;
+use crate::robot::Percepts;
+use crate::robot::Sensing;
+use crate::robot::reckon;
+
 mod camera;
 mod localisation;
-mod preset;
 #[cfg(test)]
 mod tests;
 
 use std::collections::VecDeque;
-use std::f32::consts::PI;
-use std::sync::Arc;
 
 use bevy::prelude::*;
-use serde::{Deserialize, Serialize};
 
-pub use camera::range_deviation;
 use camera::{Blob, look};
-pub use localisation::reckon;
 use localisation::{PoseError, odometry_error};
-pub use preset::{Camera, Eyes, MemorySpans, Sensing};
 
 use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, Twist, wrap_angle};
-use crate::ids::{RobotId, Team};
+use crate::ids::RobotId;
+use crate::pitch::BallKind;
 use crate::rng::{Dice, Seed};
-use crate::robot::{Drive, DriveCommand, OffPitch, Robot, Trailer};
+use crate::robot::handling::Handling;
+use crate::robot::{Drive, DriveCommand, Head, OffPitch, Robot, Trailer};
 use crate::schedule::{Tick, TickSystems};
 use crate::world::ball::Ball;
-use crate::world::handling::Handling;
-use crate::world::head::Head;
 use crate::world::referee::MatchState;
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, (take_frames, deliver_frames, read_odometry).chain().in_set(TickSystems::Sense));
 }
 
-/// What a robot's sensors say: the newest camera frame that has arrived.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Percepts {
-    pub frame: Option<Frame>,
-}
-
-/// One camera frame, worked out: egocentric sightings, and where the robot was by its own localisation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Frame {
-    /// The tick in which the shutter opened.
-    pub taken: u64,
-    pub ball: Option<Sighting>,
-    /// Markers tell the team, not the number.
-    pub robots: Vec<(Team, Sighting)>,
-    /// The localised pose, in the team frame.
-    pub fix: Pose,
-    /// Where the camera looked: rad to the left of the body's heading.
-    pub pan: f32,
-    /// Whether the robot's own chin was on the ball.
-    pub chin_down: bool,
-}
-
 /// A robot's eyes, with the errors and the frames that are under way inside them.
 #[derive(Component, Clone, Debug)]
 pub struct Eyesight {
-    pub sensing: Arc<Sensing>,
     error: PoseError,
     under_way: VecDeque<Frame>,
     camera_dice: Dice,
@@ -69,14 +47,13 @@ pub struct Eyesight {
 }
 
 impl Eyesight {
-    pub fn new(sensing: Arc<Sensing>, seed: Seed, robot: RobotId) -> Eyesight {
+    pub fn new(sensing: &Sensing, seed: Seed, robot: RobotId) -> Eyesight {
         let mut localisation_dice = Dice::new(seed, "localisation", Some(robot));
         let error = match &sensing.eyes {
             Eyes::Perfect => PoseError::default(),
             Eyes::Real { localisation, .. } => PoseError::drawn(localisation, &mut localisation_dice),
         };
         Eyesight {
-            sensing,
             error,
             under_way: VecDeque::new(),
             camera_dice: Dice::new(seed, "camera", Some(robot)),
@@ -87,34 +64,6 @@ impl Eyesight {
     /// Forgets the frames under way, as when people carry the robot elsewhere.
     pub fn blink(&mut self) {
         self.under_way.clear();
-    }
-}
-
-/// What wheels or legs report: a dead-reckoned pose in a frame of its own, and whether they move in vain.
-#[derive(Component, Clone, Debug)]
-pub struct Odometry {
-    pub pose: Pose,
-    /// Speed ahead in m/s.
-    pub speed: f32,
-    /// rad/s
-    pub turn_rate: f32,
-    /// How long wheels or legs have been told to move without moving the robot, s.
-    pub stalled_for: f32,
-    /// Distance since the last error was drawn, m.
-    unjudged: f32,
-    dice: Dice,
-}
-
-impl Odometry {
-    pub fn new(seed: Seed, robot: RobotId) -> Odometry {
-        Odometry {
-            pose: Pose::default(),
-            speed: 0.0,
-            turn_rate: 0.0,
-            stalled_for: 0.0,
-            unjudged: 0.0,
-            dice: Dice::new(seed, "odometry", Some(robot)),
-        }
     }
 }
 
@@ -142,8 +91,8 @@ struct Gaze {
 
 fn take_frames(
     clock: Res<Clock>,
-    state: Res<MatchState>,
-    ball: Single<(&Ball, &Pose)>,
+    (state, kind): (Res<MatchState>, Res<BallKind>),
+    ball: Single<&Pose, With<Ball>>,
     bodies: Bodies,
     trailers: Query<(&Trailer, &Pose)>,
     mut eyes: Query<Watching, Without<OffPitch>>,
@@ -152,15 +101,15 @@ fn take_frames(
     for (&id, robot, &pose, head, handling, mut eyesight) in &mut eyes {
         let eyesight = &mut *eyesight;
         let team_pose = state.attacking(id.team).turn_pose(pose);
-        match &eyesight.sensing.eyes {
+        match &robot.sensing.eyes {
             Eyes::Perfect if robot.senses(&clock) => {
-                let scene = scene.get_or_insert_with(|| Scene::of(*ball, &bodies, &trailers));
+                let scene = scene.get_or_insert_with(|| Scene::of((&kind, *ball), &bodies, &trailers));
                 eyesight.under_way.push_back(scene.seen_perfectly(id, pose, team_pose, clock.tick));
             }
             Eyes::Real { camera, localisation, .. } if clock.is_due(camera.frame_hz) => {
                 let dt = 1.0 / camera.frame_hz;
                 eyesight.error = eyesight.error.drift(localisation, dt, &mut eyesight.localisation_dice);
-                let scene = scene.get_or_insert_with(|| Scene::of(*ball, &bodies, &trailers));
+                let scene = scene.get_or_insert_with(|| Scene::of((&kind, *ball), &bodies, &trailers));
                 let gaze = Gaze { from: pose, pan: head.pan, chin_down: handling.hides_ball() };
                 let mut frame = scene.seen_through(camera, id, gaze, &mut eyesight.camera_dice);
                 frame.taken = clock.tick;
@@ -173,7 +122,7 @@ fn take_frames(
 }
 
 impl Scene {
-    fn of((ball, pose): (&Ball, &Pose), bodies: &Bodies, trailers: &Query<(&Trailer, &Pose)>) -> Scene {
+    fn of((ball, pose): (&BallKind, &Pose), bodies: &Bodies, trailers: &Query<(&Trailer, &Pose)>) -> Scene {
         let mut robots: Vec<_> =
             bodies.iter().map(|(id, robot, pose)| (*id, pose.position, robot.kind.reach())).collect();
         let mut trailers: Vec<_> = (trailers.iter())
@@ -182,7 +131,7 @@ impl Scene {
         // A query's order depends on which other components robots have; dice must not.
         robots.sort_unstable_by_key(|(id, ..)| *id);
         trailers.sort_unstable_by_key(|(id, ..)| *id);
-        Scene { ball: pose.position, ball_radius: ball.kind.radius, robots, trailers }
+        Scene { ball: pose.position, ball_radius: ball.radius, robots, trailers }
     }
 
     fn seen_perfectly(&self, own: RobotId, pose: Pose, team_pose: Pose, tick: u64) -> Frame {
@@ -227,9 +176,12 @@ impl Scene {
     }
 }
 
-fn deliver_frames(clock: Res<Clock>, mut eyes: Query<(&mut Eyesight, &mut Percepts), Without<OffPitch>>) {
-    for (mut eyesight, mut percepts) in &mut eyes {
-        let latency = match &eyesight.sensing.eyes {
+fn deliver_frames(
+    clock: Res<Clock>,
+    mut eyes: Query<(&Robot, &mut Eyesight, &mut Percepts), Without<OffPitch>>,
+) {
+    for (robot, mut eyesight, mut percepts) in &mut eyes {
+        let latency = match &robot.sensing.eyes {
             Eyes::Perfect => 0,
             Eyes::Real { camera, .. } => (camera.latency / clock.dt).round() as u64,
         };
@@ -242,10 +194,10 @@ fn deliver_frames(clock: Res<Clock>, mut eyes: Query<(&mut Eyesight, &mut Percep
 /// Robots that are told to move faster than this, m/s, and that move slower than the second, are stalled.
 const STALL: (f32, f32) = (0.12, 0.04);
 
-type Moved<'a> = (&'a Robot, &'a Eyesight, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
+type Moved<'a> = (&'a Robot, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
 
 fn read_odometry(clock: Res<Clock>, mut robots: Query<Moved, Without<OffPitch>>) {
-    for (robot, eyesight, pose, twist, command, mut odometry) in &mut robots {
+    for (robot, pose, twist, command, mut odometry) in &mut robots {
         odometry.speed = twist.linear.dot(pose.forward());
         odometry.turn_rate = twist.angular;
         // Wheels do not feel that they slide sideways.
@@ -256,7 +208,7 @@ fn read_odometry(clock: Res<Clock>, mut robots: Query<Moved, Without<OffPitch>>)
         let mut way = Vec2::new(odometry.speed, aside) * clock.dt;
         let mut turn = twist.angular * clock.dt;
         odometry.unjudged += way.length();
-        if let Eyes::Real { odometry: noise, .. } = &eyesight.sensing.eyes
+        if let Eyes::Real { odometry: noise, .. } = &robot.sensing.eyes
             && robot.senses(&clock)
         {
             let distance = std::mem::take(&mut odometry.unjudged);
@@ -267,18 +219,5 @@ fn read_odometry(clock: Res<Clock>, mut robots: Query<Moved, Without<OffPitch>>)
         let moved = Vec2::new(odometry.speed, aside).length() + 0.1 * odometry.turn_rate.abs();
         odometry.stalled_for =
             if command.speed() > STALL.0 && moved < STALL.1 { odometry.stalled_for + clock.dt } else { 0.0 };
-    }
-}
-
-/// Whether a point at this sighting would be well inside the view of a frame, so that not seeing it means something.
-pub fn should_be_seen(eyes: &Eyes, frame: &Frame, sighting: Sighting) -> bool {
-    match eyes {
-        Eyes::Perfect => true,
-        Eyes::Real { camera, .. } => {
-            !frame.chin_down
-                && sighting.range < 0.7 * camera.ball_range
-                && wrap_angle(sighting.bearing - frame.pan).abs()
-                    < 0.4 * camera.field_of_view.to_radians().min(2.0 * PI)
-        }
     }
 }

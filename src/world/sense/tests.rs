@@ -1,12 +1,21 @@
 //! Frames on their way from the shutter to the robot, and wheels that turn in vain.
 
+use crate::ids::Team;
+use crate::robot::Camera;
+use crate::robot::Eyes;
+use crate::robot::Frame;
+use crate::robot::MemorySpans;
+use crate::robot::Odometry;
+use crate::robot::Percepts;
+use crate::robot::Sensing;
 use bevy::ecs::system::RunSystemOnce;
+use std::sync::Arc;
 
 use super::*;
 use crate::data::Source;
 use crate::ids::Team::{Away, Home};
-use crate::mind::perception::fixture::{BALL, cye};
 use crate::robot::WheelSpeeds;
+use crate::testing::{BALL, cye};
 use crate::world::referee::RuleBook;
 
 /// Bodies and eyes, moved by hand.
@@ -38,14 +47,15 @@ impl Bench {
         let mut world = World::new();
         world.insert_resource(Clock::new(60.0));
         world.insert_resource(MatchState::new(Home, &RuleBook::default()));
-        world.spawn((Ball { kind: BALL }, Pose { position: ball, heading: 0.0 }));
+        world.insert_resource(BALL);
+        world.spawn((Ball, Pose { position: ball, heading: 0.0 }));
         Bench(world)
     }
 
     fn robot(&mut self, sensing: &Sensing, team: Team, number: u8, pose: Pose) -> Entity {
         let id = RobotId::new(team, number);
-        let robot = Robot::new(Arc::new(cye()), self.0.resource());
-        let eyesight = Eyesight::new(Arc::new(sensing.clone()), Seed(1), id);
+        let robot = Robot::new(Arc::new(cye()), Arc::new(sensing.clone()), self.0.resource());
+        let eyesight = Eyesight::new(sensing, Seed(1), id);
         let drive = (Twist::default(), DriveCommand::idle(&robot.kind), Odometry::new(Seed(1), id));
         let senses = (Head::default(), Handling::new(Seed(1), id), eyesight, Percepts::default());
         self.0.spawn((id, robot, pose, senses, drive)).id()

@@ -22,8 +22,9 @@ use crate::app::view::state::{Overlay, Overlays, Screen, Selected};
 use crate::clock::Clock;
 use crate::comms::tcm::{DataType, Registry, Tcm, TcmClient};
 use crate::ids::{RobotId, Team};
+use crate::robot::Orders;
 use crate::world::gamecontroller::BoxNews;
-use crate::world::referee::{MatchState, Orders};
+use crate::world::referee::MatchState;
 use tally::Tally;
 
 pub(super) fn plugin(app: &mut App) {

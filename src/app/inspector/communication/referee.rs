@@ -9,11 +9,12 @@ use crate::app::view::colours;
 use crate::app::view::labels::off_text;
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
+use crate::robot::Orders;
 use crate::world::gamecontroller::BoxNews;
 use crate::world::gamecontroller::control::SetPlay;
 use crate::world::gamecontroller::referee_box::{Heard, View};
 use crate::world::gamecontroller::serving::Serving;
-use crate::world::referee::{MatchState, Orders};
+use crate::world::referee::MatchState;
 
 const MATCH: [Column; 3] = [
     words("", 96.0, ""),
@@ -167,7 +168,7 @@ fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchS
     let more = match orders.place {
         _ if is_off => off_text(state, robot),
         _ if state.restraints.is_frozen(robot) => "penalised, stands where it is".into(),
-        Some(place) if orders.state == crate::world::referee::RobotState::Ready => {
+        Some(place) if orders.state == crate::robot::RobotState::Ready => {
             let [x, y] = numbers::coordinates(place.position);
             format!("to {x}, {y} m")
         }

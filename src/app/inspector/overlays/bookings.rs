@@ -16,6 +16,7 @@ use crate::app::view::state::{Overlays, Selected};
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::Booking;
+use crate::pitch::BallKind;
 use crate::protocol::b3p::{B3p, Distance};
 use crate::robot::{OffPitch, Robot};
 use crate::world::ball::Ball;
@@ -71,14 +72,15 @@ pub(super) struct Booked<'w, 's> {
     clock: Res<'w, Clock>,
     selected: Res<'w, Selected>,
     robots: Query<'w, 's, (&'static RobotId, &'static Robot, &'static Booking), Without<OffPitch>>,
-    ball: Query<'w, 's, (Entity, &'static Ball)>,
+    kind: Res<'w, BallKind>,
+    ball: Query<'w, 's, Entity, With<Ball>>,
     shown: Query<'w, 's, &'static Shown>,
 }
 
 impl Booked<'_, '_> {
     /// Each line with its two ends on the pitch: beside the booker, and at the ball.
     fn placed(&self) -> Vec<(Line, Vec2, Vec2)> {
-        let Some((ball, kind)) = self.ball.iter().next().filter(|_| self.overlays.teamwork) else {
+        let Some(ball) = self.ball.iter().next().filter(|_| self.overlays.teamwork) else {
             return Vec::new();
         };
         let at = |found: &dyn Fn(&Shown) -> bool| {
@@ -95,7 +97,7 @@ impl Booked<'_, '_> {
             let robot = self.robots.iter().find(|(id, ..)| **id == line.booker);
             let room = robot.map_or(0.0, |(_, robot, _)| 0.6 * reach(&robot.kind));
             let way = (to - from).normalize_or_zero();
-            let (from, end) = (from + room * way, to - ROUND * kind.kind.radius * way);
+            let (from, end) = (from + room * way, to - ROUND * self.kind.radius * way);
             // A booker at the ball needs no line.
             let from = if (end - from).dot(way) > 0.0 { from } else { end };
             Some((line, from, end))
@@ -105,14 +107,14 @@ impl Booked<'_, '_> {
 }
 
 pub(super) fn draw(booked: Booked, mut pens: Pens) {
-    let Some((_, ball)) = booked.ball.iter().next() else { return };
+    let radius = ROUND * booked.kind.radius;
     for (line, from, to) in booked.placed() {
         let tint = tints::lighter(line.booker.team);
         pens.strong.line_2d(from, to, tint);
         let way = (to - from).normalize_or_zero();
-        let around = to + ROUND * ball.kind.radius * way;
+        let around = to + radius * way;
         if way != Vec2::ZERO {
-            pens.strong.circle_2d(around, ROUND * ball.kind.radius, tint).resolution(32);
+            pens.strong.circle_2d(around, radius, tint).resolution(32);
         }
     }
 }

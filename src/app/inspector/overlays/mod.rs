@@ -88,7 +88,7 @@ fn draw(
         let pan =
             gazes.iter().find(|(shown, _)| shown.body == robot.of.entity).map_or(0.0, |(_, gaze)| gaze.pan);
         let from = Pose { heading: anchor.heading + pan, ..anchor };
-        sight::draw_field_of_view(&mut pens, &robot.of.eyesight.sensing.eyes, from, pixel);
+        sight::draw_field_of_view(&mut pens, &robot.of.robot.sensing.eyes, from, pixel);
     }
     if overlays.beliefs {
         beliefs::draw(&mut pens, &robot, pixel);

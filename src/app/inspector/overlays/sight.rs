@@ -6,7 +6,7 @@ use super::Pens;
 use crate::app::inspector::subject::Looked;
 use crate::app::inspector::{strokes, tints};
 use crate::geometry::{Pose, unit};
-use crate::world::sense::Eyes;
+use crate::robot::Eyes;
 
 /// Solid to the farthest ball, dashed on to the farthest robot.
 pub(super) fn draw_field_of_view(pens: &mut Pens, eyes: &Eyes, from: Pose, pixel: f32) {

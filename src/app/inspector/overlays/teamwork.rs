@@ -12,11 +12,10 @@ use crate::app::view::shown::Shown;
 use crate::app::view::state::Overlays;
 use crate::geometry::Attacking;
 use crate::ids::RobotId;
-use crate::mind::behaviour::Activity;
 use crate::mind::teamwork::{Swapping, TeamPicture};
 use crate::pitch::Pitch;
 use crate::robot::{OffPitch, Robot};
-use crate::strategy::Strategies;
+use crate::strategy::{Activity, Strategies};
 use crate::world::referee::MatchState;
 
 /// Radii of the rings of a claim and of a lock, in reaches of the robot.

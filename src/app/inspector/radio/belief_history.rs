@@ -5,10 +5,9 @@ use bevy::prelude::*;
 use crate::app::view::driver::AfterTick;
 use crate::app::view::session::MatchBegun;
 use crate::clock::Clock;
-use crate::ids::RobotId;
+use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::teamwork::Booking;
 use crate::protocol::b3p::B3p;
-use crate::protocol::role_swap::Number;
 use crate::robot::Robot;
 
 pub(super) fn plugin(app: &mut App) {
@@ -36,7 +35,7 @@ pub struct Span {
 /// That a robot has booked the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Belief {
-    pub booker: Number,
+    pub booker: PlayerNumber,
     /// The robot itself has, and goes to the ball.
     pub goes: bool,
 }

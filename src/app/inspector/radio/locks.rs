@@ -4,9 +4,9 @@ use bevy::prelude::*;
 
 use crate::app::view::driver::AfterTick;
 use crate::clock::Clock;
-use crate::ids::RobotId;
+use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::teamwork::Swapping;
-use crate::protocol::role_swap::{Number, Phase, Sequence};
+use crate::protocol::role_swap::{Phase, Sequence};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<LockHistory>().add_systems(AfterTick, look);
@@ -34,7 +34,7 @@ pub struct Span {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
     /// A team mate has its lock.
-    Locked { by: Number, sequence: Sequence },
+    Locked { by: PlayerNumber, sequence: Sequence },
     /// It has initiated an attempt, which is not over.
     Attempt { sequence: Sequence },
 }

@@ -4,7 +4,7 @@ use bevy_egui::egui::{self, RichText};
 
 use crate::app::inspector::subject::Looked;
 use crate::app::inspector::{figures, table};
-use crate::mind::behaviour::Taken;
+use crate::strategy::TransitionTaken;
 
 /// Transitions that are shown, newest first.
 const SHOWN: usize = 5;
@@ -31,7 +31,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
 }
 
 /// A transition in words. A change of sub-role that keeps the state says so by its end alone.
-fn transition(ui: &egui::Ui, taken: &Taken) -> egui::text::LayoutJob {
+fn transition(ui: &egui::Ui, taken: &TransitionTaken) -> egui::text::LayoutJob {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let mut text = egui::text::LayoutJob::default();
     let mut say = |words: &str, colour| {

@@ -15,7 +15,7 @@ const RESET: f32 = 20.0;
 const ROW: f32 = 19.0;
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
-    let (kind, sensing) = (&robot.of.robot.kind, &robot.of.eyesight.sensing);
+    let (kind, sensing) = (&robot.of.robot.kind, &robot.of.robot.sensing);
     let mut values = match asked(desk, robot) {
         Some(asked) => Values::of(&asked.kind, &asked.sensing),
         None => Values::of(kind, sensing),

@@ -9,8 +9,7 @@ use crate::app::inspector::subject::Looked;
 use crate::app::inspector::weights::Place;
 use crate::app::inspector::{figures, table, tints};
 use crate::geometry::{Attacking, angle, wrap_angle};
-use crate::mind::motor::SteeringIntent;
-use crate::robot::DriveCommand;
+use crate::robot::{DriveCommand, SteeringIntent};
 use crate::strategy::{Combination, Term};
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {

@@ -6,10 +6,10 @@ use crate::app::inspector::subject::Looked;
 use crate::app::inspector::{figures, table};
 use crate::geometry::Sighting;
 use crate::ids::Team;
-use crate::world::sense::{Eyes, Frame};
+use crate::robot::{Eyes, Frame};
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
-    let eyes = camera(&robot.of.eyesight.sensing.eyes);
+    let eyes = camera(&robot.of.robot.sensing.eyes);
     let Some(frame) = &robot.of.percepts.frame else {
         table::line(ui, "frame", "none yet").on_hover_text(eyes);
         return;

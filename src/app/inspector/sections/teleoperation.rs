@@ -8,8 +8,8 @@ use crate::app::inspector::figures;
 use crate::app::inspector::subject::Looked;
 use crate::app::view::keys::{Deed, Drive, Keyboard};
 use crate::app::view::levers::Levers;
+use crate::robot::handling::Grip;
 use crate::robot::{Drive as Legs, Kick, RobotKind};
-use crate::world::handling::Grip;
 
 /// Width of a lever, in points.
 const LEVER: f32 = 120.0;

@@ -16,10 +16,9 @@ use crate::comms::radio::FaultRule;
 use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
-use crate::pitch::Pitch;
+use crate::pitch::{BallKind, Pitch};
 use crate::rng::LARGEST_SEED;
 use crate::robot::RobotKind;
-use crate::world::ball::BallKind;
 
 type Result<T> = std::result::Result<T, DataError>;
 

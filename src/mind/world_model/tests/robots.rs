@@ -19,7 +19,7 @@ fn a_robot_that_moves_a_little_is_the_same_robot_and_one_of_the_other_team_anoth
 
 #[test]
 fn perfect_eyes_place_robots_where_they_are() {
-    let mut bench = Bench::new(perfect(), Pose::default());
+    let mut bench = Bench::new(perfect_sensing(), Pose::default());
     bench.sees(3, None, &[(Away, v(2.0, 0.0))]);
     assert_at(places(bench.sees(6, None, &[(Away, v(2.5, 0.4))]), Away)[0], v(2.5, 0.4), 1e-4);
 }
@@ -80,7 +80,7 @@ fn two_beliefs_of_one_robot_become_one_where_they_meet() {
 #[test]
 fn the_robots_believed_in_are_bounded_and_the_longest_unseen_give_way() {
     let memory = MemorySpans { ball: 3.0, robots: 1e6 };
-    let mut bench = Bench::new(Sensing { memory, ..perfect() }, Pose::default());
+    let mut bench = Bench::new(Sensing { memory, ..perfect_sensing() }, Pose::default());
     let place = |frame: u64| v(1.0 + (frame % 5) as f32, -4.0 + 0.8 * (frame / 5) as f32);
     bench.sees(6, None, &[(Home, v(-3.0, 0.0))]);
     for frame in 2..40 {

@@ -78,7 +78,7 @@ impl Pair {
     fn arrives(&mut self, robot: usize) {
         if !self.unheard[robot].is_empty() {
             let book = self.unheard[robot].remove(0);
-            self.happens(robot, Input::Hear { from: 1 - robot as Number, book });
+            self.happens(robot, Input::Hear { from: 1 - robot as PlayerNumber, book });
         }
     }
 

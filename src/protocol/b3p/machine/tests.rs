@@ -52,7 +52,7 @@ fn see_nothing(robot: &mut B3p, now: Tick) -> Option<Book> {
 }
 
 /// Whether the robot believes it.
-fn hear(robot: &mut B3p, now: Tick, from: Number, book: Book) -> bool {
+fn hear(robot: &mut B3p, now: Tick, from: PlayerNumber, book: Book) -> bool {
     assert_eq!(robot.step(now, Input::Hear { from, book }), None, "hearing is not answered");
     robot.booking().is_some_and(|known| (known.robot_booker, known.distance) == (from, book.distance))
 }
@@ -276,7 +276,7 @@ fn rules_are_written_as_a_strategy_has_them() {
 fn times_and_thresholds_at_their_limits_do_no_harm() {
     for rules in RULES {
         let limits = Settings { rules, threshold: Distance::INFINITE, timeout: Tick::MAX, renewal: 0 };
-        let mut robot = B3p::new(Number::MAX, limits);
+        let mut robot = B3p::new(PlayerNumber::MAX, limits);
         assert!(see(&mut robot, Tick::MAX, u32::MAX - 1).is_some());
         assert!(see(&mut robot, 0, 0).is_some(), "a clock that goes back");
         hear(&mut robot, 0, 0, book(Term::MAX, u32::MAX, u32::MAX));

@@ -8,7 +8,7 @@ fn team() -> Assignment {
     Assignment::new(0..3)
 }
 
-fn robot(me: Number) -> Hardened {
+fn robot(me: PlayerNumber) -> Hardened {
     Hardened::new(me, team())
 }
 
@@ -16,11 +16,11 @@ fn assignment(roles: [RoleIndex; 3]) -> Assignment {
     Assignment::new(roles)
 }
 
-fn configuration(epoch: Sequence, initiator: Number, roles: [RoleIndex; 3]) -> Configuration {
+fn configuration(epoch: Sequence, initiator: PlayerNumber, roles: [RoleIndex; 3]) -> Configuration {
     Configuration { epoch, initiator, assignment: assignment(roles) }
 }
 
-fn receive(from: Number, message: Message) -> Input {
+fn receive(from: PlayerNumber, message: Message) -> Input {
     Input::Receive { from, message }
 }
 
@@ -40,7 +40,7 @@ fn ack_swap(sequence: Sequence) -> Message {
     Message::AckSwap { sequence }
 }
 
-fn send(to: Number, message: Message) -> Effect {
+fn send(to: PlayerNumber, message: Message) -> Effect {
     Effect::Send { to, message }
 }
 
@@ -51,7 +51,7 @@ fn effects(effects: impl IntoIterator<Item = Effect>) -> Effects {
 const START: [RoleIndex; 3] = [0, 1, 2];
 const ROTATED: [RoleIndex; 3] = [2, 0, 1];
 
-fn rotation(participants: &[Number]) -> Input {
+fn rotation(participants: &[PlayerNumber]) -> Input {
     let pairs = smallvec![(0, 2), (2, 1), (1, 0)];
     Input::Initiate { reassignment: Reassignment::Roles(pairs), participants: participants.into() }
 }

@@ -9,16 +9,16 @@ const HALFBACK: RoleIndex = 0;
 const FLOATER: RoleIndex = 1;
 const FORWARD: RoleIndex = 2;
 
-fn robot(me: Number, on_missing_ack: OnMissingAck) -> Paper {
+fn robot(me: PlayerNumber, on_missing_ack: OnMissingAck) -> Paper {
     let rules = PaperRules { on_missing_ack, ..PaperRules::default() };
     Paper::new(me, Assignment::new(0..3), rules)
 }
 
-fn receive(from: Number, message: Message) -> Input {
+fn receive(from: PlayerNumber, message: Message) -> Input {
     Input::Receive { from, message }
 }
 
-fn send(to: Number, message: Message) -> Effect {
+fn send(to: PlayerNumber, message: Message) -> Effect {
     Effect::Send { to, message }
 }
 

@@ -1,8 +1,13 @@
-//! Roles that a strategy mentions.
+//! The roles of a strategy: those that robots have, and those that it mentions.
 
+use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::protocol::role_swap::RoleIndex;
+
+/// A robot's role: an index into its strategy's roles.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
+pub struct Role(pub usize);
 
 /// A role by its name, and its place among the strategy's roles once the strategy is loaded.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -27,7 +27,8 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use crate::data::Fault;
-use crate::protocol::role_swap::{Number, Reassignment, RoleIndex};
+use crate::ids::PlayerNumber;
+use crate::protocol::role_swap::{Reassignment, RoleIndex};
 pub use art::Art;
 pub use case_based::{CaseBased, ClosestBecomesForward};
 pub use cs_freiburg::CsFreiburg;
@@ -91,7 +92,7 @@ impl Cast {
 /// What a robot knows when it decides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knowledge<'a> {
-    pub me: Number,
+    pub me: PlayerNumber,
     /// The players that were heard of lately, this one included, in order of their numbers.
     pub players: &'a [Player],
     /// m in the team frame.
@@ -109,7 +110,7 @@ pub struct Knowledge<'a> {
 /// A player as this robot knows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Player {
-    pub number: Number,
+    pub number: PlayerNumber,
     /// The role it is believed to have.
     pub role: RoleIndex,
     /// m in the team frame.
@@ -140,7 +141,7 @@ pub struct PolicyState {
     /// Whether it had tight control of the ball at the last decision.
     had_control: bool,
     /// The role that each robot was last believed to have.
-    roles: SmallVec<[(Number, RoleIndex); 4]>,
+    roles: SmallVec<[(PlayerNumber, RoleIndex); 4]>,
     /// When this robot last proposed a swap or saw a role change, s.
     unrest: Option<f32>,
 }

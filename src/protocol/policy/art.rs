@@ -15,7 +15,8 @@ use super::places::{Places, ball, nearness};
 use super::{Cast, ColumnValues, Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::geometry::{angle, wrap_angle};
-use crate::protocol::role_swap::{Number, Reassignment};
+use crate::ids::PlayerNumber;
+use crate::protocol::role_swap::Reassignment;
 
 /// Columns: reaching the ball, defending.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -109,7 +110,7 @@ impl Art {
 }
 
 /// A robot's value in a column as a share of the mean of all bidders.
-fn relative(bidders: &[Bidder], number: Number, column: usize) -> Option<f32> {
+fn relative(bidders: &[Bidder], number: PlayerNumber, column: usize) -> Option<f32> {
     let value = |bidder: &Bidder| bidder.values[column].max(0.0);
     let own = value(bidders.iter().find(|bidder| bidder.member.number == number)?);
     let mean = bidders.iter().map(value).sum::<f32>() / bidders.len() as f32;

@@ -68,7 +68,7 @@ fn scene() -> impl Strategy<Value = Scene> {
         values,
     });
     let numbered = |team: Vec<Option<Player>>| -> Vec<Player> {
-        let named = |(number, player): (Number, Option<Player>)| Some(Player { number, ..player? });
+        let named = |(number, player): (PlayerNumber, Option<Player>)| Some(Player { number, ..player? });
         (0..).zip(team).filter_map(named).collect()
     };
     let players = prop::collection::vec(prop::option::weighted(0.9, player), 4).prop_map(numbered);

@@ -19,7 +19,7 @@ fn assignment(roles: [RoleIndex; 4]) -> Assignment {
     Assignment::new(roles)
 }
 
-fn player(number: Number, role: RoleIndex, x: f32, y: f32) -> Player {
+fn player(number: PlayerNumber, role: RoleIndex, x: f32, y: f32) -> Player {
     Player { number, role, position: Vec2::new(x, y), heading: 0.0, values: None }
 }
 
@@ -28,7 +28,7 @@ fn player(number: Number, role: RoleIndex, x: f32, y: f32) -> Player {
 struct Scene {
     players: Vec<Player>,
     ball: Option<Vec2>,
-    in_control: Option<Number>,
+    in_control: Option<PlayerNumber>,
     now: f32,
 }
 
@@ -48,7 +48,7 @@ impl Scene {
         }
     }
 
-    fn knowledge(&self, me: Number) -> Knowledge<'_> {
+    fn knowledge(&self, me: PlayerNumber) -> Knowledge<'_> {
         Knowledge {
             me,
             players: &self.players,
@@ -69,18 +69,18 @@ impl Scene {
         }
     }
 
-    fn decide(&self, policy: &Policy, me: Number) -> Option<Reassignment> {
+    fn decide(&self, policy: &Policy, me: PlayerNumber) -> Option<Reassignment> {
         policy.decide(&CAST, &self.knowledge(me), &mut PolicyState::default())
     }
 
     /// What a robot decides that had the ball a moment ago.
-    fn decide_after_control(&self, policy: &Policy, me: Number) -> Option<Reassignment> {
+    fn decide_after_control(&self, policy: &Policy, me: PlayerNumber) -> Option<Reassignment> {
         let mut state = PolicyState { had_control: true, ..PolicyState::default() };
         policy.decide(&CAST, &self.knowledge(me), &mut state)
     }
 
     /// The robots that propose a swap, with the roles that would follow.
-    fn proposals(&self, policy: &Policy) -> Vec<(Number, [RoleIndex; 4])> {
+    fn proposals(&self, policy: &Policy) -> Vec<(PlayerNumber, [RoleIndex; 4])> {
         let roles = |proposal: Reassignment| {
             let after = proposal.apply(&assignment(KICK_OFF), &assignment(KICK_OFF));
             after.roles().try_into().unwrap()

@@ -1,35 +1,11 @@
-//! The head of a robot that has a neck: where it should look, part of the Motor stage, and how it turns there, part of the
-//! Drive stage.
+//! Where a robot that has a neck looks.
 
 use bevy::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use crate::clock::Clock;
 use crate::geometry::{angle, wrap_angle};
 use crate::mind::world_model::WorldModel;
-use crate::robot::pilot::Pilot;
-use crate::robot::{OffPitch, Robot};
-use crate::schedule::{Tick, TickSystems};
-
-pub(crate) fn plugin(app: &mut App) {
-    app.add_systems(Tick, aim_heads.in_set(TickSystems::Motor))
-        .add_systems(Tick, turn_heads.in_set(TickSystems::Drive));
-}
-
-/// Where a head should look, rad to the left of the body's heading; written by the Motor stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct HeadIntent {
-    pub pan: f32,
-    /// How fast it should turn there, rad/s.
-    pub speed: f32,
-}
-
-/// Where a head looks; always straight ahead without a neck. Written by the Drive stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-pub struct Head {
-    /// rad to the left of the body's heading
-    pub pan: f32,
-}
+use crate::robot::{Head, HeadIntent, OffPitch, Robot};
 
 /// A ball that was not seen for so long is looked for again, s, although it is still believed in.
 const PATIENCE: f32 = 0.7;
@@ -37,7 +13,7 @@ const PATIENCE: f32 = 0.7;
 type Looking<'a> = (&'a Robot, &'a WorldModel, &'a Head, &'a mut HeadIntent);
 
 /// Looks at the ball, and from side to side while it is not in sight.
-fn aim_heads(clock: Res<Clock>, mut robots: Query<Looking, Without<OffPitch>>) {
+pub(super) fn aim_heads(clock: Res<Clock>, mut robots: Query<Looking, Without<OffPitch>>) {
     for (robot, model, head, mut intent) in &mut robots {
         let Some(neck) = &robot.kind.neck else { continue };
         if !robot.decides(&clock) {
@@ -64,22 +40,6 @@ fn scan(pan: f32, towards: f32, farthest: f32) -> f32 {
 
 /// A head this near to where it should look is there, rad.
 const ARRIVED: f32 = 0.02;
-
-fn turn_heads(
-    clock: Res<Clock>,
-    mut robots: Query<(&Robot, &HeadIntent, Option<&Pilot>, &mut Head), Without<OffPitch>>,
-) {
-    for (robot, intent, pilot, mut head) in &mut robots {
-        let Some(neck) = robot.kind.neck.filter(|_| !robot.condition.crashed) else { continue };
-        let fastest = neck.speed.to_radians();
-        let (wanted, speed) = match pilot.and_then(|pilot| pilot.head) {
-            Some(share) => (share * neck.pan.to_radians(), fastest),
-            None => (intent.pan, intent.speed.min(fastest)),
-        };
-        let step = speed * clock.dt;
-        head.pan += (wanted - head.pan).clamp(-step, step);
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -1,75 +1,24 @@
 //! Handling the ball, as four-legged robots do: the chin holds it, and kicks send it away. Part of the Drive stage.
 
-mod chin;
-mod kick;
-
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
-use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
-
-pub use chin::{Grip, NearBall};
-pub use kick::{Kicking, launch};
 
 use crate::clock::Clock;
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
-use crate::rng::{Dice, Seed};
-use crate::robot::Robot;
+use crate::pitch::BallKind;
+use crate::robot::handling::{Grip, Handling, Kicking, NearBall, launch};
 use crate::robot::pilot::Pilot;
+use crate::robot::{KickIntent, Orders, Robot, RobotState};
 use crate::schedule::{Tick, TickSystems};
 use crate::world::ball::{Ball, Rolling};
 use crate::world::drive::push_bodies;
 use crate::world::physics::Bodies;
-use crate::world::referee::{Orders, RobotState};
 
 pub(super) fn plugin(app: &mut App) {
     let systems = (decide_handling, strike_ball, hold_ball).chain().after(push_bodies);
     app.add_systems(Tick, systems.in_set(TickSystems::Drive));
-}
-
-/// What a robot wants to do to the ball besides walking into it; written by the Motor stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Reflect)]
-pub enum KickIntent {
-    #[default]
-    Nothing,
-    /// Catch the ball under the chin, and keep it there.
-    Hold,
-    /// Kick, by the index of the kick among the robot's own.
-    Kick(usize),
-}
-
-/// What a robot is doing to the ball.
-#[derive(Component, Clone, Debug)]
-pub struct Handling {
-    pub grip: Grip,
-    pub kicking: Option<Kicking>,
-    dice: Dice,
-}
-
-impl Handling {
-    pub fn new(seed: Seed, robot: RobotId) -> Handling {
-        Handling { grip: Grip::Open, kicking: None, dice: Dice::new(seed, "kick", Some(robot)) }
-    }
-
-    pub fn holds(&self) -> bool {
-        self.grip.holds()
-    }
-
-    /// Whether it kicks or catches, so that its legs are not free to walk.
-    pub fn is_busy(&self) -> bool {
-        self.kicking.is_some() || matches!(self.grip, Grip::Lowering { .. } | Grip::Raising { .. })
-    }
-
-    /// Whether the head is down, with the camera on the carpet.
-    pub fn hides_ball(&self) -> bool {
-        self.holds() || matches!(self.grip, Grip::Lowering { .. })
-    }
-
-    /// The robot was put down somewhere.
-    pub fn let_go(&mut self) {
-        (self.grip, self.kicking) = (Grip::Open, None);
-    }
 }
 
 type Handler<'a> = (&'a RobotId, &'a Robot, &'a RapierRigidBodyHandle, &'a Pose, &'a mut Handling);
@@ -152,10 +101,11 @@ fn near_ball(
 fn strike_ball(
     clock: Res<Clock>,
     mut bodies: Bodies,
-    ball: Single<(&Ball, &RapierRigidBodyHandle, &Pose, &mut Rolling)>,
+    kind: Res<BallKind>,
+    ball: Single<(&RapierRigidBodyHandle, &Pose, &mut Rolling), With<Ball>>,
     mut robots: Query<Handler>,
 ) {
-    let (ball, ball_handle, ball_pose, mut rolling) = ball.into_inner();
+    let (ball_handle, ball_pose, mut rolling) = ball.into_inner();
     for (_, robot, body, pose, mut handling) in robots.iter_mut().sort::<&RobotId>() {
         let Some(kicking) = handling.kicking.filter(|kicking| kicking.strikes == clock.tick) else {
             continue;
@@ -166,7 +116,7 @@ fn strike_ball(
         if !(held || near.is_some_and(|ball| in_reach(&ball, robot))) {
             continue;
         }
-        let kicked = launch(&kicking.kick, ball.kind.rolling, &mut handling.dice);
+        let kicked = launch(&kicking.kick, kind.rolling, &mut handling.dice);
         let velocity = unit(pose.heading).rotate(kicked);
         if let Some(body) = bodies.get_mut(ball_handle) {
             body.set_linvel(velocity, true);
@@ -179,16 +129,17 @@ fn strike_ball(
 fn hold_ball(
     clock: Res<Clock>,
     mut bodies: Bodies,
-    ball: Single<(&Ball, &RapierRigidBodyHandle, &Pose)>,
+    kind: Res<BallKind>,
+    ball: Single<(&RapierRigidBodyHandle, &Pose), With<Ball>>,
     robots: Query<(&RobotId, &Robot, &RapierRigidBodyHandle, &Pose, &Handling)>,
 ) {
-    let (ball, ball_handle, ball_pose) = *ball;
+    let (ball_handle, ball_pose) = *ball;
     let mut holding: SmallVec<[_; 8]> = robots.iter().filter(|(.., handling)| handling.holds()).collect();
     holding.sort_unstable_by_key(|(id, ..)| **id);
     for (_, robot, body, pose, _) in holding {
         let Some(chin) = &robot.kind.chin else { continue };
         let Some(near) = near_ball((body, pose), (ball_handle, ball_pose), &bodies) else { continue };
-        let impulse = unit(pose.heading).rotate(chin.pull(&near, ball.kind.mass, clock.dt)) * clock.dt;
+        let impulse = unit(pose.heading).rotate(chin.pull(&near, kind.mass, clock.dt)) * clock.dt;
         if let Some(ball) = bodies.get_mut(ball_handle) {
             ball.apply_impulse(impulse, false);
         }

@@ -4,12 +4,13 @@ use bevy::prelude::Vec2;
 use smallvec::SmallVec;
 
 use super::{Cast, ColumnValues, Duty, Knowledge};
-use crate::protocol::role_swap::{Number, Reassignment};
+use crate::ids::PlayerNumber;
+use crate::protocol::role_swap::Reassignment;
 
 /// A robot with a role of the cast.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Member {
-    pub number: Number,
+    pub number: PlayerNumber,
     pub duty: Duty,
     pub position: Vec2,
     pub heading: f32,
@@ -103,7 +104,7 @@ pub(super) fn by_importance(
 }
 
 /// Whoever gains the first duty of a distribution that changes hands.
-pub(super) fn first_to_gain(distribution: &Distribution) -> Option<Number> {
+pub(super) fn first_to_gain(distribution: &Distribution) -> Option<PlayerNumber> {
     let gain = distribution.iter().find(|(member, duty)| member.duty != *duty);
     gain.map(|(member, _)| member.number)
 }
@@ -124,7 +125,7 @@ pub(super) fn exchange(cast: &Cast, taker: Member, duty: Duty, members: &[Member
 
 /// Whether all who hold a duty agree to part with it. A duty that nobody seems to hold is free only once enough members were
 /// heard of for all three; else its holder may just be silent.
-pub(super) fn is_given_up(members: &[Member], duty: Duty, agrees: impl Fn(Number) -> bool) -> bool {
+pub(super) fn is_given_up(members: &[Member], duty: Duty, agrees: impl Fn(PlayerNumber) -> bool) -> bool {
     let mut holders = members.iter().filter(|member| member.duty == duty).peekable();
     if holders.peek().is_none() {
         members.len() >= Duty::ALL.len()

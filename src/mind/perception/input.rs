@@ -1,0 +1,61 @@
+//! What a robot decides upon, and how that becomes its [`Perception`].
+
+use bevy::ecs::query::QueryData;
+
+use super::{Memory, Perception};
+use crate::clock::Clock;
+use crate::ids::RobotId;
+use crate::mind::teamwork::TeamPicture;
+use crate::mind::world_model::WorldModel;
+use crate::pitch::{BallKind, Pitch};
+use crate::robot::handling::Handling;
+use crate::robot::{Odometry, Orders, Robot};
+use crate::strategy::{Activity, Role, Strategy};
+
+/// What a robot decides upon, and what its operators remember. Of the Behaviour and Motor stages.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub struct Decider {
+    pub input: DecisionInput,
+    pub memory: &'static mut Memory,
+}
+
+/// What a robot decides upon.
+#[derive(QueryData)]
+pub struct DecisionInput {
+    pub id: &'static RobotId,
+    pub robot: &'static Robot,
+    pub model: &'static WorldModel,
+    pub odometry: &'static Odometry,
+    pub picture: &'static TeamPicture,
+    pub role: &'static Role,
+    pub handling: &'static Handling,
+    pub orders: &'static Orders,
+}
+
+/// The perception of a robot in an activity.
+pub fn perception<'a>(
+    input: &DecisionInputItem<'a, '_>,
+    activity: &Activity,
+    strategy: &'a Strategy,
+    (clock, pitch, ball): (&Clock, &'a Pitch, &BallKind),
+) -> Perception<'a> {
+    let seconds_since = |tick: u64| clock.tick.saturating_sub(tick) as f32 * clock.dt;
+    Perception {
+        team: input.id.team,
+        role: input.role.0,
+        model: input.model,
+        picture: input.picture,
+        teamwork: &strategy.teamwork,
+        pitch,
+        danger_zone: activity.danger_zone(strategy),
+        homebase: activity.homebase,
+        now: clock.now() as f32,
+        ball_age: input.model.ball.map(|ball| seconds_since(ball.seen)),
+        time_in_state: seconds_since(activity.since),
+        holds_ball: input.handling.holds(),
+        stalled_for: input.odometry.stalled_for,
+        front: input.robot.kind.body.length / 2.0,
+        ball_radius: ball.radius,
+    }
+}

@@ -1,0 +1,45 @@
+//! What a robot is doing to the ball: its chin holds it, its kicks send it away. Pure: time and dice are arguments.
+
+mod chin;
+mod kick;
+
+use bevy::prelude::*;
+
+pub use chin::{Grip, NearBall};
+pub use kick::{Kicking, launch};
+
+use crate::ids::RobotId;
+use crate::rng::{Dice, Seed};
+
+/// What a robot is doing to the ball.
+#[derive(Component, Clone, Debug)]
+pub struct Handling {
+    pub grip: Grip,
+    pub kicking: Option<Kicking>,
+    pub dice: Dice,
+}
+
+impl Handling {
+    pub fn new(seed: Seed, robot: RobotId) -> Handling {
+        Handling { grip: Grip::Open, kicking: None, dice: Dice::new(seed, "kick", Some(robot)) }
+    }
+
+    pub fn holds(&self) -> bool {
+        self.grip.holds()
+    }
+
+    /// Whether it kicks or catches, so that its legs are not free to walk.
+    pub fn is_busy(&self) -> bool {
+        self.kicking.is_some() || matches!(self.grip, Grip::Lowering { .. } | Grip::Raising { .. })
+    }
+
+    /// Whether the head is down, with the camera on the carpet.
+    pub fn hides_ball(&self) -> bool {
+        self.holds() || matches!(self.grip, Grip::Lowering { .. })
+    }
+
+    /// The robot was put down somewhere.
+    pub fn let_go(&mut self) {
+        (self.grip, self.kicking) = (Grip::Open, None);
+    }
+}
