@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Listens to Touchline's robots, or tells them something. Written from docs/tcm-format.md alone.
+"""Listens to Touchline's robots, or tells them something. Written from docs/tcm.md alone.
 
 tcm_client.py listen --bind 127.0.0.1:7499
 tcm_client.py send --to 127.0.0.1:7400 --as "computer 0" --text "hello"
@@ -154,7 +154,7 @@ def listen(conn):
 
 
 def self_test():
-    """The examples of docs/tcm-format.md."""
+    """The examples of docs/tcm.md."""
     text = bytes.fromhex("54434D01 01000006 00010206 07000000 06000000 0800 0000 0100 0600 0568656C6C6F")
     head = "54434D01 00000300 02000000 02010000 14000000 0100"
     first = bytes.fromhex(head + "0000 0200 1000 DC0B 03 0000C03F 000080BE 0000803F 00")
@@ -172,7 +172,7 @@ def self_test():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("command", nargs="?", choices=["listen", "send"], default="listen")
-    parser.add_argument("--self-test", action="store_true", help="decode the examples of docs/tcm-format.md")
+    parser.add_argument("--self-test", action="store_true", help="decode the examples of docs/tcm.md")
     parser.add_argument("--bind", metavar="HOST:PORT", default="127.0.0.1:7499", help="where to listen")
     parser.add_argument("--to", metavar="HOST:PORT", default="127.0.0.1:7400", help="where to send")
     parser.add_argument("--as", dest="source", metavar="WHO", type=entity, default="computer 0")

@@ -5,6 +5,7 @@ mod b3p;
 mod booking;
 mod command_line;
 mod corpus;
+mod docs;
 mod first_messages;
 mod network;
 mod numbers;

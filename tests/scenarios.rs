@@ -60,16 +60,3 @@ fn every_scenario_fails_without_what_it_depends_on() {
     assert!(reports.len() >= 15, "{} scenarios depend on something", reports.len());
     assert_all_pass(&reports);
 }
-
-#[test]
-fn the_scenario_in_the_readme_passes() {
-    let readme =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README.md");
-    let example = readme.split("```ron\n").skip(1).find(|block| block.contains("expect:"));
-    let example = example.and_then(|block| block.split("```").next()).expect("the README has a scenario");
-    let folder = tempfile::tempdir().expect("a folder for the test");
-    let path = folder.path().join("readme.ron");
-    std::fs::write(&path, example).expect("the folder can be written to");
-    let plan = ScenarioPlan::read(&assets(), &path).unwrap_or_else(|error| panic!("{error}"));
-    assert_all_pass(&[plan.run(None)]);
-}

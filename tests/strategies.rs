@@ -3,7 +3,7 @@
 use touchline::data::{AssetKind, Source};
 use touchline::strategy::Strategy;
 
-use crate::support::{assets, digest_of, friendly, strategy_text};
+use crate::support::{assets, strategy_text};
 
 /// The message for the shipped Hammerheads with a piece of text replaced.
 fn message_for(from: &str, to: &str) -> String {
@@ -63,16 +63,4 @@ fn a_missing_file_is_said_to_be_missing() {
     let read = Strategy::read(&assets(), &path, None);
     let message = read.strategy.expect_err("there is no such file").to_string();
     assert!(message.contains("nobody.ron") && message.contains("hammerheads_2001"), "{message}");
-}
-
-#[test]
-fn the_strategy_in_the_readme_can_be_played() {
-    let readme =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).expect("README.md");
-    let example = readme.split("```ron").nth(1).and_then(|rest| rest.split("```").next());
-    let source = Source::new("README.md", example.expect("the README has an example"));
-    let strategy = Strategy::parse(&assets(), &source, None).unwrap_or_else(|error| panic!("{error}"));
-    let mut plan = friendly(1, 0.3);
-    plan.teams[0].strategy = strategy.into();
-    assert_ne!(digest_of(&plan), digest_of(&friendly(1, 0.3)));
 }

@@ -11,7 +11,7 @@ use std::process::{Command, Output};
 use crate::support::strategy_text;
 
 /// The program with these arguments, as it is started where there is no display.
-fn program(arguments: &[&str]) -> Command {
+pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_touchline"));
     where_there_is_no_display(&mut command).args(arguments);
     command
@@ -40,7 +40,7 @@ fn failing_scenario(folder: &Path) -> PathBuf {
     path
 }
 
-fn text(bytes: &[u8]) -> String {
+pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }
 

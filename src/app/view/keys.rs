@@ -360,8 +360,8 @@ mod tests {
     }
 
     #[test]
-    fn the_read_me_names_every_key() {
-        let text = include_str!("../../../README.md");
+    fn the_page_on_playing_names_every_key() {
+        let text = include_str!("../../../docs/playing.md");
         let keys =
             text.split("\n## ").find(|section| section.starts_with("Keys")).expect("a section on keys");
         let rows: String = keys.lines().filter_map(|line| line.strip_prefix("| ")).collect();

@@ -2,7 +2,7 @@
 //! put together again at its destination. Nothing is acknowledged and nothing is sent twice.
 //!
 //! A datagram is a [`Header`] of [`HEADER`] bytes and a piece of the data. Its layout, byte by byte, is in
-//! `docs/tcm-format.md`. All fragments of a message but the last bring equally much, so that each tells its own place.
+//! `docs/tcm.md`. All fragments of a message but the last bring equally much, so that each tells its own place.
 
 mod assembly;
 mod header;

@@ -27,7 +27,7 @@ fn assembled(assembly: &mut Assembly, datagrams: &[Vec<u8>]) -> Option<ExternalM
     message
 }
 
-/// The example of `docs/tcm-format.md` of a message that fits into a datagram.
+/// The example of `docs/tcm.md` of a message that fits into a datagram.
 #[test]
 fn a_text_has_these_bytes() {
     let manager = Module::CHAOS_MANAGER;
@@ -53,7 +53,7 @@ fn a_text_has_these_bytes() {
     assert_eq!(assembly().accept(0, &golden), Ok(Some(message)));
 }
 
-/// The example of `docs/tcm-format.md` of a message in two fragments.
+/// The example of `docs/tcm.md` of a message in two fragments.
 #[test]
 fn a_position_in_small_datagrams_has_these_bytes() {
     #[rustfmt::skip]
