@@ -1,4 +1,50 @@
-//! Touchline plays robot soccer between teams of behaviour-based robots.
+//! Touchline plays robot soccer between teams of behaviour-based robots over a bad radio.
+//!
+//! This is the library behind the program. It plays matches and scenarios without a window, and the feature `window` adds one.
+//!
+//! # A match
+//!
+//! ```
+//! use touchline::data::AssetFolder;
+//! use touchline::game::{Choice, Match, MatchPlan};
+//!
+//! let assets = AssetFolder::find(None)?;
+//! let choice = Choice { seed: 3, half_minutes: Some(0.1), ..Choice::default() };
+//! let plan = MatchPlan::read(&assets, &choice)?;
+//! let mut game = Match::new(&plan);
+//! while !game.is_over() {
+//!     game.tick();
+//! }
+//! let [home, away] = game.state().score;
+//! println!("{home} : {away} after {:.0} s", game.clock().now());
+//!
+//! // Equal seeds give equal matches.
+//! let mut again = Match::new(&plan);
+//! while !again.is_over() {
+//!     again.tick();
+//! }
+//! assert_eq!(game.record().digest, again.record().digest);
+//! # Ok::<(), touchline::data::DataError>(())
+//! ```
+//!
+//! # Contents
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | [`schedule`], [`clock`], [`ids`], [`rng`], [`geometry`] | the stages of a tick, time, names, dice, poses |
+//! | [`data`] | RON files, with places for their mistakes |
+//! | [`pitch`] | the pitch |
+//! | [`protocol`] | role swap and ball booking, as values |
+//! | [`strategy`] | what a team does, read from a file |
+//! | [`robot`] | a robot's kind, and what passes between its body and its mind |
+//! | [`comms`] | messages, the team communication module, the radio |
+//! | [`world`] | the truth: physics, ball, drive, senses, referee |
+//! | [`mind`] | what a robot believes and decides |
+//! | [`game`] | a match from plan to digest, requests, sockets |
+//! | [`lab`] | scenarios |
+//! | [`app`] | the command line and the window |
+//!
+//! # The way of the data
 //!
 //! One schedule, [`schedule::Tick`], is the simulation. Data flows through its stages in one direction:
 //!
@@ -6,8 +52,8 @@
 //! Script -> Deliver -> Sense -> WorldModel -> Teamwork -> Behaviour -> Motor -> Drive -> Physics -> Referee -> Transmit -> Record
 //! ```
 //!
-//! Each stage is a module, whose `mod.rs` holds its components and systems; its siblings are pure logic. Robots act on beliefs
-//! only: truth is read by Sense, Referee, Record and the window. Seed, assets and requests determine a match bit for bit.
+//! Robots act on beliefs only: Sense, Referee, Record and the window read the truth. Seed, assets and requests determine a match
+//! bit for bit.
 
 #![forbid(unsafe_code)]
 // They panic when nobody reads; `cli` prints by writers that can fail.
