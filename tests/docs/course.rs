@@ -48,8 +48,7 @@ fn the_course_goes_as_it_says() {
 
 /// The file that the text before a block names last.
 fn named_file(prose: &str) -> &str {
-    let code = prose.rsplit('`').skip(1).step_by(2);
-    let name = code.into_iter().find(|code| code.starts_with("my_") && code.ends_with(".ron"));
+    let name = prose.rsplit('`').find(|code| code.starts_with("my_") && code.ends_with(".ron"));
     name.unwrap_or_else(|| panic!("no file is named in: {prose}"))
 }
 
