@@ -1,4 +1,4 @@
-//! Who is who: the two teams and their robots, with a total order that every loop whose order matters uses, and the mark of
+//! The names of things: the two teams and their robots, with a total order that every loop whose order matters uses, and the mark of
 //! what belongs to a match.
 
 use std::fmt;

@@ -8,7 +8,7 @@ use crate::comms::tcm::Directory;
 use crate::comms::tcm::external_message::Entity;
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, TopLevel, no_such};
 
-/// Reads who is where.
+/// Reads the table of addresses.
 pub(crate) fn read_addresses(path: &Path) -> Result<Directory, DataError> {
     let source = Source::read(path)?;
     let directory: Directory = source.parse()?;

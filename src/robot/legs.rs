@@ -27,7 +27,7 @@ pub struct Walker {
     pub noise: GaitNoise,
 }
 
-/// How a gait misses its command: an error that is drawn anew with each step.
+/// How a gait misses its command: an error, drawn again with each step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GaitNoise {

@@ -7,7 +7,7 @@ use super::file::{KickOff, StrategyFile};
 use super::resolve::resolve;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path};
 
-/// So many strategies at most may each be based on the next.
+/// The most strategies that may each be based on the next.
 const MAX_BASES: usize = 8;
 
 /// A strategy file and those that it is based on, the nearest first.

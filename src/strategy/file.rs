@@ -126,7 +126,7 @@ pub enum TurnFile {
     Stay,
     /// Rotates to face a point.
     Face(Point),
-    /// Rotates at so many degrees per second.
+    /// Rotates at this many degrees a second.
     Spin(f32),
 }
 

@@ -21,7 +21,7 @@ pub enum Point {
     Ball,
     /// Where the ball is by the robot's own eyes, or by the freshest report of a team mate.
     TeamBall,
-    /// Where the ball will be in so many seconds, as it rolls.
+    /// Where the ball will be in this many seconds, as it rolls.
     BallIn(f32),
     /// The middle of the team's own goal line.
     OurGoal,
@@ -117,7 +117,7 @@ pub enum Points {
         from: Box<Point>,
         radius: f32,
     },
-    /// Also those of the last so many seconds; a new one within `merge` metres replaces an old one, of which the share
+    /// Also those of the last `seconds`; a new one within `merge` metres replaces an old one, of which the share
     /// `blend` is kept.
     Remember {
         of: Box<Points>,
@@ -158,7 +158,7 @@ pub enum Feature {
     Any(Vec<Feature>),
     /// The place of something is known.
     Known(Point),
-    /// The camera has shown the ball within the last so many seconds.
+    /// The camera has shown the ball within this many seconds.
     BallSeenWithin(f32),
     /// Two points are known and nearer than `radius`.
     Near {
@@ -185,12 +185,12 @@ pub enum Feature {
         zone: ZoneName,
         point: Point,
     },
-    /// A point is known and within so many degrees of straight ahead.
+    /// A point is known and within this many degrees of straight ahead.
     Facing {
         point: Point,
         within: f32,
     },
-    /// Robot, ball and target are in line within so many degrees, with the robot behind.
+    /// Robot, ball and target are in line within this many degrees, with the robot behind.
     BehindBall {
         toward: Point,
         within: f32,
@@ -216,18 +216,18 @@ pub enum Feature {
     HoldsBall,
     /// The goalie has said that it left its area, and not that it is back.
     GoalieIsOut,
-    /// The wheels have been turning for so many seconds without moving the robot.
+    /// The wheels have turned for this many seconds without moving the robot.
     Stalled(f32),
-    /// The robot has been in its present state for so many seconds.
+    /// The robot has been in its present state for this many seconds.
     After(f32),
-    /// The statement was true within the last so many seconds.
+    /// The statement was true within the last `seconds`.
     HoldFor {
         what: Box<Feature>,
         seconds: f32,
         #[serde(skip)]
         slot: usize,
     },
-    /// The statement has been true for so many seconds without a break.
+    /// The statement has been true for `seconds` without a break.
     Lasting {
         what: Box<Feature>,
         seconds: f32,
@@ -274,7 +274,7 @@ pub enum Schema {
     SwirlLeft { around: Points, sphere: f32, safety: f32 },
     /// Leads around what is ahead, strongest a little off the middle.
     GeoField { around: Points, toward: Point, sphere: f32, safety: f32 },
-    /// A random direction, drawn anew every `period` seconds.
+    /// A random direction, drawn every `period` seconds.
     Noise {
         period: f32,
         #[serde(skip)]

@@ -161,11 +161,11 @@ pub struct BallBooking {
     pub rules: b3p::Rules,
     /// How much nearer than the booker a robot must be to book the ball in its stead.
     pub threshold: f32,
-    /// A booking that was not renewed for so long is free.
+    /// A booking that was not renewed for this long is free.
     pub timeout: f32,
     /// Between two announcements of a robot that keeps its booking.
     pub renewal: f32,
-    /// A ball that a robot has not seen for so long is none that it may book, although it still believes in it.
+    /// A robot does not book a ball that it has not seen for this long, although it still believes in it.
     pub sight: f32,
 }
 

@@ -21,7 +21,7 @@ pub(super) enum Ending {
     WindowFailed = 4,
     /// By Ctrl-C: 128 and the number of SIGINT, as in a shell.
     Interrupted = 130,
-    /// Whoever read the output has closed it: 128 and the number of SIGPIPE, as in a shell.
+    /// The reader of the output closed it: 128 and the number of SIGPIPE, as in a shell.
     OutputClosed = 141,
 }
 

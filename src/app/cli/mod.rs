@@ -1,4 +1,4 @@
-//! The command line. One file a subcommand; how commands end is the business of `ending` alone.
+//! The command line. One file a subcommand; `ending` alone says how commands end.
 
 mod check;
 mod ending;

@@ -29,7 +29,7 @@ pub(super) struct Robot {
     options: MatchOptions,
     #[command(flatten)]
     seed: SeedOption,
-    /// Print what became of its messages as JSON.
+    /// Print the counts of its messages as JSON.
     #[arg(long)]
     json: bool,
 }

@@ -57,7 +57,7 @@ struct Report {
     /// What the teams said as the league counts it, where the match is announced or keeps to the league's limits.
     #[serde(skip_serializing_if = "Option::is_none")]
     budgets: Option<[TeamBudget; 2]>,
-    /// What became of the datagrams that crossed a network.
+    /// Counts of the datagrams that crossed a network.
     #[serde(skip_serializing_if = "Option::is_none")]
     network: Option<Network>,
     /// What was heard of the referee box that refereed it.

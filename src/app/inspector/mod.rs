@@ -1,4 +1,4 @@
-//! The inspector: what goes on inside one robot, in a panel beside the pitch and drawn upon it.
+//! The inspector: what goes on inside one robot, in a panel beside the pitch and drawn on it.
 //!
 //! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: figures, matching, kinds of
 //! schemas, outlines.

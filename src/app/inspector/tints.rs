@@ -7,7 +7,7 @@ pub use crate::app::view::colours::{egui, team, team_text as lighter};
 
 /// What the robot's sensors said.
 pub const SENSED: Color = Color::srgb(1.0, 1.0, 1.0);
-/// What became of all schemas together.
+/// The sum of all schemas.
 pub const SUM: Color = Color::srgb(1.0, 1.0, 1.0);
 
 /// A weight that is not the file's.

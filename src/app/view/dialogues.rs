@@ -1,4 +1,4 @@
-//! What asks before it does something: a restart, and leaving a match that is not over. While it asks, time stands still.
+//! Questions before something is lost: a restart, and leaving a match that is not over. While it asks, time stands still.
 
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};

@@ -1,4 +1,4 @@
-//! How the expectations of a scenario stand while it is played: its judge looks at each tick, and touches nothing.
+//! The state of a scenario's expectations while it is played: its judge looks at each tick and changes nothing.
 
 use bevy::prelude::*;
 

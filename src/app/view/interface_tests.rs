@@ -143,7 +143,7 @@ fn collect_texts(shape: &egui::Shape, seen: Rect, texts: &mut Vec<(String, bool)
     }
 }
 
-/// The edges of panels are no wider than this, in points; they lie upon others by design.
+/// The edges of panels are no wider than this, in points; they overlap others by design.
 const THIN: f32 = 12.0;
 
 /// Buttons, sliders and the like where they are seen; lists that scroll and the grounds of windows lie under those by design.
@@ -154,7 +154,7 @@ fn controls(widgets: &[egui::WidgetRect], screen: Rect) -> Vec<Rect> {
 }
 
 impl Frame {
-    /// Controls that lie upon each other, in one layer, or on the pitch.
+    /// Controls that overlap each other, in one layer, or the pitch.
     fn clashes(&self) -> Vec<(Rect, Rect)> {
         let mut clashes = Vec::new();
         for (order, layer) in &self.layers {

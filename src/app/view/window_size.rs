@@ -21,7 +21,7 @@ fn fitting(wanted: UVec2, screen: UVec2, pixels_a_point: f32) -> UVec2 {
     if wanted.cmple(screen).all() { wanted } else { wanted.min(free) }
 }
 
-/// Pixels a point in a window of so many pixels, on a screen that has `of_screen`: fewer if the interface had no room otherwise,
+/// Pixels a point in a window of this many pixels, on a screen that has `of_screen`: fewer if the interface had no room otherwise,
 /// but not less than one.
 pub fn pixels_a_point(window: UVec2, of_screen: f32) -> f32 {
     let fits = (window.as_vec2() / NEEDED).min_element();

@@ -1,4 +1,4 @@
-//! How much was said on each link, and what became of it.
+//! Counts of what was said on each link, and of what arrived.
 //!
 //! Sent + duplicated = delivered + lost + what is still under way.
 

@@ -79,7 +79,7 @@ impl RadioLog {
         self.settle(id, Outcome::Lost(loss));
     }
 
-    /// The first copy to arrive settles what became of a message.
+    /// The first copy to arrive settles the fate of a message.
     fn settle(&mut self, id: u64, outcome: Outcome) {
         let first = self.entries.front().map_or(self.next_id, |entry| entry.id);
         let entry = id.checked_sub(first).and_then(|index| self.entries.get_mut(index as usize));

@@ -67,7 +67,7 @@ pub struct Envelope {
 #[component(immutable)]
 pub struct Payload(pub Arc<[u8]>);
 
-/// The state of the air in a match: what becomes of messages, and what became of them.
+/// The state of the radio in a match: what is under way, and the counts.
 #[derive(SystemParam)]
 pub struct Air<'w> {
     channel: ResMut<'w, Channel>,

@@ -35,7 +35,7 @@ pub struct Queues<T> {
     last: Option<Module>,
 }
 
-/// What became of the items of a module. Put in = handed over + dropped + what still waits.
+/// Counts of a module's items. Put in = handed over + dropped + waiting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct QueueCounters {
     pub put_in: u64,

@@ -28,7 +28,7 @@ pub struct TypeCount {
     pub messages_sent: u64,
     /// Data of the messages sent, bytes, once for each message however many receive it.
     pub bytes_sent: u64,
-    /// Fragments sent, for each receiver anew.
+    /// Fragments sent, counted for each receiver.
     pub datagrams_sent: u64,
     pub messages_received: u64,
     /// Data of the messages received, bytes.

@@ -1,5 +1,5 @@
-//! What modules exchange, and the table of the types that are known (TeamChaos, section 3): whoever wants to send or receive
-//! a type says how it is serialised and unserialised; the TCM does the rest.
+//! What modules exchange, and the table of the types that are known (TeamChaos, section 3): a module that sends or
+//! receives a type says how it is serialised and unserialised; the TCM does the rest.
 
 use std::collections::BTreeMap;
 
@@ -69,7 +69,7 @@ pub struct Registered {
     pub(super) deliver: Deliver,
 }
 
-/// Unserialises the bytes and calls whoever waits for them; tells whether that was possible.
+/// Unserialises the bytes and hands them to their observers; tells whether that was possible.
 type Deliver = fn(&mut Commands, Entity, external_message::Entity, &[u8]) -> bool;
 
 impl Registry {

@@ -1,4 +1,4 @@
-//! Who is where (TeamChaos, section 3): the table of entities and their socket addresses, which the paper keeps in `TCM.ini`
+//! The directory (TeamChaos, section 3): the table of entities and their socket addresses, which the paper keeps in `TCM.ini`
 //! and Touchline in a RON file, `{"home 0": "127.0.0.1:7400", "computer 0": "127.0.0.1:7499"}`.
 
 use std::fmt;
@@ -66,13 +66,13 @@ impl Directory {
         self.entries.sort_by_key(|&(entity, _)| entity);
     }
 
-    /// Who is at an address. An IPv4 address that is written as an IPv6 address is the same.
+    /// The entity at an address. An IPv4 address that is written as an IPv6 address is the same.
     pub fn entity_at(&self, address: SocketAddr) -> Option<Entity> {
         self.entries().find(|&(_, there)| is_same(there, address)).map(|(entity, _)| entity)
     }
 
     /// Who gets a message for `destination`, in the order of the entities: one for a robot or computer, several for a group.
-    /// `except`, its sender, does not get it in any case, nor does who is not in the directory.
+    /// `except`, its sender, never gets it, nor does an entity that is not in the directory.
     pub fn recipients(
         &self,
         destination: Entity,

@@ -2,7 +2,7 @@
 //!
 //! A module puts data into its robot's [`TcmClient`]. In the Transmit stage the TCM takes them, makes [`ExternalMessage`]s of
 //! them and cuts these into datagrams for a carrier: the simulated radio, or UDP. In the Deliver stage it puts arriving
-//! datagrams together again and calls whoever registered for their type. It keeps no connections and repeats nothing.
+//! datagrams together again and hands them to the observers of their type. It keeps no connections and repeats nothing.
 
 mod budget;
 pub mod client;
@@ -101,7 +101,7 @@ impl Tcm {
         }
     }
 
-    /// Counts messages from here on: somewhere else than before, if the robot's program was started anew.
+    /// Counts messages from here on. A robot's program that restarts begins elsewhere.
     pub fn count_from(&mut self, counter: u32) {
         self.counter = counter;
     }
@@ -233,7 +233,7 @@ impl Tcm {
 }
 
 impl Directory {
-    /// Whom a message reaches: who is meant, and every computer if it is for a team, so that tools can follow.
+    /// The receivers of a message: those it names, and every computer if it is for a team, so that tools can follow.
     fn receivers(&self, to: Party, from: Party) -> impl Iterator<Item = Party> {
         let listens = move |party: Party| match to {
             Party::Team(_) => matches!(party, Party::Computer(_)) && party != HOST,

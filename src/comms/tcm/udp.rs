@@ -35,7 +35,7 @@ fn why(source: &io::Error) -> String {
     }
 }
 
-/// What became of one try to receive.
+/// The result of one try to receive.
 enum Step {
     Datagram(SocketAddr, usize),
     /// Something that is not for the caller: an oversized datagram, or word that an earlier one found nobody.

@@ -41,7 +41,7 @@ pub struct UdpCarrier {
     pub figures: CarrierFigures,
 }
 
-/// What became of the datagrams of this process's robots.
+/// Counts of the datagrams of this process's robots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct CarrierFigures {
     /// To robots, wherever they are; those to computers that may listen are not counted.
@@ -64,7 +64,7 @@ struct UnderWay {
     sent: u64,
 }
 
-/// A datagram that has not arrived for so long is lost, s.
+/// A datagram that has not arrived after this time is lost, s.
 const LOST: f32 = 1.0;
 
 impl UdpCarrier {

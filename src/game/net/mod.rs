@@ -282,7 +282,7 @@ pub fn finish(world: &mut World) {
     }
 }
 
-/// What became of the packets to and from remote robots.
+/// Counts of the packets to and from remote robots.
 pub fn remote_figures(world: &World) -> Vec<RemoteFigures> {
     let wires = world.get_resource::<Wires>();
     wires.and_then(|wires| wires.remote.as_ref()).map(RemoteRobots::figures).unwrap_or_default()

@@ -99,7 +99,7 @@ impl BoxSocket {
         }
     }
 
-    /// Says who is followed, if that is news.
+    /// Says which box is followed, if that is news.
     fn join(&mut self, from: SocketAddr) {
         if self.sender == Some(from) && std::mem::take(&mut self.said_lost) {
             info!("the referee box at {from} is heard again");

@@ -1,6 +1,6 @@
 //! The match's side of robots that are processes of their own: in lock-step it tells each what it senses and waits for what
-//! it wants to do. Who does not answer in time goes on with what it wanted last. Who has been silent for long stands still
-//! and is [greeted](super::greeting) again and again; once it answers, it is taken in.
+//! it wants to do. A robot that does not answer in time goes on with what it wanted last. A robot that stays silent stands still
+//! and is [greeted](super::greeting) again and again; once it answers, it takes part again.
 
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
@@ -26,12 +26,12 @@ use crate::robot::{Head, Odometry, Orders, Percepts, Recall, Robot, RobotState};
 
 /// How long a tick waits for answers, unless it was [granted](super::grant) less.
 const PATIENCE: Duration = Duration::from_millis(200);
-/// A robot that has not answered for so many ticks stands still, and no tick waits for it until it has answered again.
+/// A robot that has not answered for this many ticks stands still, and no tick waits for it until it answers again.
 const SILENCE: u64 = 10;
-/// The datagrams that are taken at a time when there is nobody to wait for: who floods a match does not stop it.
+/// The most datagrams that are taken at a time when there is no robot to wait for, so that a flood does not stop a match.
 pub(super) const TURN: usize = 128;
 
-/// What became of the packets to and from one remote robot.
+/// Counts of the packets to and from one remote robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RemoteFigures {
     pub robot: RobotId,

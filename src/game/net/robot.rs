@@ -46,7 +46,7 @@ pub struct RobotProcess {
     answered: u64,
 }
 
-/// What became of a robot's datagrams, when it ends.
+/// Counts of a robot's datagrams, for its report at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RobotReport {
     pub robot: RobotId,

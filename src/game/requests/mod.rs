@@ -1,4 +1,4 @@
-//! The Script stage: what comes from outside a match. Requests wait in [`Requests`] and take effect at the next tick, in the
+//! The Script stage: requests from outside a match. Requests wait in [`Requests`] and take effect at the next tick, in the
 //! order in which they were made.
 
 mod air;

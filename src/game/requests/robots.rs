@@ -1,4 +1,4 @@
-//! Requests that make robots ill or well.
+//! Requests that make robots fail or recover.
 
 use std::sync::Arc;
 

@@ -150,7 +150,7 @@ pub enum Condition {
     All(Vec<Condition>),
     Any(Vec<Condition>),
     Not(Box<Condition>),
-    /// Has held for so long without a break.
+    /// Has held for this time without a break, s.
     For {
         seconds: f32,
         what: Box<Condition>,

@@ -1,4 +1,4 @@
-//! What came of a scenario over all its seeds: a line for people, and JUnit XML for machines.
+//! The result of a scenario over all its seeds: a line for people, and JUnit XML for machines.
 
 use std::fmt::{self, Display, Formatter};
 use std::time::Duration;

@@ -7,7 +7,7 @@ use crate::geometry::{angle, wrap_angle};
 use crate::mind::world_model::WorldModel;
 use crate::robot::{Head, HeadIntent, OffPitch, Robot};
 
-/// A ball that was not seen for so long is looked for again, s, although it is still believed in.
+/// The head looks for a ball again that it has not seen for this long, s, although the robot still believes in it.
 const PATIENCE: f32 = 0.7;
 
 type Looking<'a> = (&'a Robot, &'a WorldModel, &'a Head, &'a mut HeadIntent);

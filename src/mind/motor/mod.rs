@@ -32,7 +32,7 @@ pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, (run_assemblages, head::aim_heads).in_set(TickSystems::Motor));
 }
 
-/// What each schema of the running assemblage wants, in the team frame, and what became of it.
+/// What each schema of the running assemblage wants, in the team frame, and the intent that followed.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Contributions {
     /// In the order of the assemblage's terms, unweighted.

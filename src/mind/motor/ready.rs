@@ -1,4 +1,4 @@
-//! What a robot does in the state ready: it walks to its place for the kick-off, round whoever stands in its way.
+//! What a robot does in the state ready: it walks to its place for the kick-off, round robots that stand in its way.
 
 use bevy::prelude::*;
 

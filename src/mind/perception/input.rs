@@ -12,7 +12,7 @@ use crate::robot::handling::Handling;
 use crate::robot::{Odometry, Orders, Robot};
 use crate::strategy::{Activity, Role, Strategy};
 
-/// What a robot decides upon, and what its operators remember. Of the Behaviour and Motor stages.
+/// The input of a robot's decisions, with the memory of its operators, for the Behaviour and Motor stages.
 #[derive(QueryData)]
 #[query_data(mutable)]
 pub struct Decider {
@@ -20,7 +20,7 @@ pub struct Decider {
     pub memory: &'static mut Memory,
 }
 
-/// What a robot decides upon.
+/// The input of a robot's decisions.
 #[derive(QueryData)]
 pub struct DecisionInput {
     pub id: &'static RobotId,

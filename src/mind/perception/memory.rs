@@ -1,7 +1,7 @@
 //! What the stateful operators of a strategy remember, one cell each, numbered when the strategy was loaded.
 //!
 //! A state asks only its own operators. One that was passed over for a decision or more cannot tell what was true meanwhile:
-//! those that watch something without a break start anew, those that keep times of their own go on.
+//! those that watch something without a break start again, those that keep times of their own go on.
 
 use bevy::prelude::*;
 

@@ -102,7 +102,7 @@ impl Hold {
     }
 }
 
-/// Becomes true for `alarm` seconds when its input has not been true for `idle` seconds, and then starts anew
+/// Becomes true for `alarm` seconds when its input has not been true for `idle` seconds, and then starts again
 /// (Clay's WatchDog). Feeding it does not cut an alarm short: the way out of trouble is gone to its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Watchdog {

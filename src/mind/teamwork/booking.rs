@@ -18,7 +18,7 @@ use crate::strategy::{Activity, Strategies, Strategy};
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
 pub struct Booking(pub B3p);
 
-/// Who has booked the ball in a robot's eyes.
+/// The booking of the ball, as a robot believes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Standing {
     #[default]

@@ -1,4 +1,4 @@
-//! Ball claiming (section VI-B): who has the ball, in a robot's eyes, by what it hears and does itself.
+//! Ball claiming (section VI-B): which robot has the ball, as a robot believes from what it hears and does itself.
 
 use smallvec::SmallVec;
 

@@ -64,7 +64,7 @@ impl GoalieWhereabouts {
         };
     }
 
-    /// A goalie that left so many ticks ago and was not heard of since is taken to be back: the news may have been lost.
+    /// A goalie that left this many ticks ago and was not heard since is taken to be back: its message may have been lost.
     pub fn forget(&mut self, tick: u64, memory: u64) {
         self.is_out &= tick.saturating_sub(self.heard) <= memory;
     }

@@ -9,7 +9,7 @@ use crate::ids::RobotId;
 use crate::robot::Robot;
 use crate::strategy::Strategies;
 
-/// A goalie of which nothing was heard for so long is taken to be back, s.
+/// A goalie that has not been heard for this long is taken to be back, s.
 const GOALIE_MEMORY: f32 = 20.0;
 
 pub(super) fn hear_news(

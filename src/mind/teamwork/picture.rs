@@ -1,4 +1,4 @@
-//! What a robot knows of its team: who plays what, who has the ball, where the goalie is.
+//! What a robot knows of its team: roles, the robot with the ball, where the goalie is.
 
 use bevy::prelude::*;
 use smallvec::SmallVec;
@@ -17,7 +17,7 @@ use crate::strategy::Strategy;
 /// A robot's picture of its team; written by the Teamwork stage.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct TeamPicture {
-    /// Who is believed to play which role.
+    /// The believed roles.
     pub roles: Assignment,
     pub claims: Claims,
     /// Whether the robot has claimed the ball and nobody above it has.
@@ -29,7 +29,7 @@ pub struct TeamPicture {
     pub values: SmallVec<[(PlayerNumber, Values, u64); 4]>,
     /// What the team mates said last of the ball.
     pub reports: BallReports,
-    /// Who has booked the ball, in this robot's eyes.
+    /// The robot that has booked the ball, as this robot believes.
     pub booking: Standing,
     /// If the robot is the goalie.
     pub border: BorderWatch,
@@ -77,7 +77,7 @@ impl TeamPicture {
         self.roles.roles().iter().position(|held| *held == role).map(|number| number as PlayerNumber)
     }
 
-    /// Takes note that a robot plays a role. Nobody else is believed to play it then: whoever was gets the robot's former one.
+    /// Takes note that a robot plays a role. Its former holder is then believed to play the robot's former role.
     pub fn note_role(&mut self, robot: PlayerNumber, role: RoleIndex) {
         let Some(before) = self.roles.of(robot) else { return };
         if let Some(other) = self.holder_of(role).filter(|other| *other != robot) {

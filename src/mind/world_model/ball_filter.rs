@@ -19,7 +19,7 @@ pub struct BallFilter {
 const ACCELERATION: f32 = 1.5;
 /// What is believed of the speed of a ball that was just seen for the first time, m/s.
 const FIRST_SPEED: f32 = 0.5;
-/// A reading this many standard deviations off starts the filter anew.
+/// A reading this many standard deviations off restarts the filter.
 const GATE: f32 = 5.0;
 
 impl BallFilter {

@@ -56,7 +56,7 @@ pub struct Settings {
     /// A booking older than this has expired. At least the longest time between two renewals that are heard, else a booker
     /// loses the ball although it is there.
     pub timeout: Tick,
-    /// A booker announces its booking again after so many ticks.
+    /// Ticks between two announcements of a booking.
     pub renewal: Tick,
 }
 

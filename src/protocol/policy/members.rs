@@ -103,7 +103,7 @@ pub(super) fn by_importance(
     Some(distribution)
 }
 
-/// Whoever gains the first duty of a distribution that changes hands.
+/// The player that gains the first duty that changes hands.
 pub(super) fn first_to_gain(distribution: &Distribution) -> Option<PlayerNumber> {
     let gain = distribution.iter().find(|(member, duty)| member.duty != *duty);
     gain.map(|(member, _)| member.number)

@@ -1,5 +1,5 @@
 //! After RMIT United 2000, as the Hammerheads paper (section II) describes it: every robot judges all the players of its own
-//! world model, again and again, and whoever has a role already gets a bonus for it.
+//! world model, again and again, and the present holder of a role gets a bonus for it.
 //!
 //! The best on the ball is the forward, the farthest back of the others the halfback, and the last one the floater. No values
 //! are exchanged. Since every robot comes to much the same view, only the one that gains the most important role that changes

@@ -1,4 +1,4 @@
-//! Who has which role, and how that is to change.
+//! Which robot has which role, and how that changes.
 
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;

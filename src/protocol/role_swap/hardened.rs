@@ -19,7 +19,7 @@ pub enum Ingredient {
     /// The assignment as the last key in the order of configurations. A robot that lost its memory may use an epoch twice;
     /// without the key the two assignments then both stay.
     AssignmentAsLastKey,
-    /// Staging. Without it a SWAP takes effect at once and a failed attempt commits the previous roles anew: roles flap, and
+    /// Staging. Without it a SWAP takes effect at once and a failed attempt commits the previous roles again: roles flap, and
     /// configurations come about out of order.
     Staging,
 }

@@ -94,7 +94,7 @@ pub enum Effect {
         to: PlayerNumber,
         message: Message,
     },
-    /// Starts the timer anew.
+    /// Restarts the timer.
     Start(Timer),
     Stop(Timer),
     /// Sends a position message at once, for it carries the new configuration.

@@ -29,9 +29,9 @@ pub enum OnMissingAck {
     /// Tells everybody its previous role, once.
     #[default]
     RollBack,
-    /// Tells everybody its previous role and repeats that to the silent, so many times or (`None`) for ever.
+    /// Tells everybody its previous role, and repeats that to silent robots this many times, or for ever (`None`).
     RollBackUntilAcknowledged { retries: Option<u8> },
-    /// Repeats the reassignment to the silent, so many times or (`None`) for ever.
+    /// Repeats the reassignment to silent robots this many times, or for ever (`None`).
     Resend { tries: Option<u8> },
 }
 

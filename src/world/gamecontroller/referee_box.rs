@@ -1,6 +1,6 @@
 //! Following a referee box: which of the packets that arrive are about our match, and what they say.
 //!
-//! The box that is followed stays the one that is followed until it falls silent, whoever else sends. A side is 0 for home
+//! One box is followed until it falls silent; other boxes are ignored meanwhile. A side is 0 for home
 //! and 1 for away throughout, the place in arrays of two.
 
 use std::mem::{Discriminant, discriminant};
@@ -37,7 +37,7 @@ pub enum Ignored {
     Stale,
 }
 
-/// The packets heard, by what became of them.
+/// Counts of the packets heard.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Heard {
     /// Gave a view.

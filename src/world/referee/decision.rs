@@ -1,6 +1,6 @@
 //! What the referee has decided, as plain data, and the sentence that a spectator reads about it.
 //!
-//! A decision changes nothing by itself: whoever owns the bodies puts ball and robots where it says. Sentences call the
+//! A decision changes nothing by itself: the owner of the bodies puts ball and robots where it says. Sentences call the
 //! west left and the north upper, as on a screen with east to the right.
 
 use std::fmt;

@@ -1,4 +1,4 @@
-//! The page with the messages that a robot has received in part, and what became of all its datagrams.
+//! The page with the messages that a robot has received in part, and with counts of its datagrams.
 
 use bevy_egui::egui::{self, vec2};
 
@@ -21,7 +21,7 @@ const OPEN: [Column; 8] = [
     figures("age", 64.0, "Time since its first fragment arrived"),
 ];
 
-/// What became of datagrams, with what each count means.
+/// The counts of datagrams, each with its meaning.
 const FATES: [(&str, &str); 9] = [
     ("whole", "Messages that came in a single datagram"),
     ("put together", "Messages put together from several fragments"),

@@ -29,7 +29,7 @@ const ORDERS: [Column; 3] = [
     words("", 130.0, "How long it is off yet, and where it should stand at the kick-off"),
 ];
 
-/// The packets that were heard, with what became of them.
+/// The counts of packets that were heard.
 const FATES: [(&str, &str); 8] = [
     ("news", "Packets that were followed"),
     ("repeated", "The newest packet once more"),

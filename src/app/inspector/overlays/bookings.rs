@@ -1,5 +1,5 @@
-//! Who has booked the ball, upon the pitch: a line in the team's colour from the booker to the ball, with the distance that it
-//! announced and how long ago. Of the selected robot's team as that robot believes; of others as the bookers do.
+//! Ball bookings on the pitch: a line in the team's colour from the booker to the ball, with the announced distance and its age.
+//! The selected robot's team is shown as that robot believes, other teams as their bookers believe.
 
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, egui};

@@ -1,5 +1,5 @@
-//! Messages upon the pitch: a dot that travels from sender to receiver between the tick of its sending and that of its
-//! arrival, with a line that fades when it is there. A lost one stops, turns grey and falls.
+//! Messages on the pitch: a dot travels from sender to receiver between the ticks of sending and arrival, with a line that
+//! fades on arrival. The dot of a lost message stops, turns grey and falls.
 
 use bevy::prelude::*;
 

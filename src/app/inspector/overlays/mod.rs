@@ -1,4 +1,4 @@
-//! What the inspector draws upon the pitch, around the selected robot and between team mates, in metres of the pitch frame.
+//! What the inspector draws on the pitch, around the selected robot and between team mates, in metres of the pitch frame.
 //!
 //! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::tints`].
 

@@ -1,5 +1,5 @@
-//! Who works with whom, upon the pitch: a ring in the ball's colour round the robot that claims the ball, a line from each supporter
-//! to whom or what it supports, an amber ring round each that is locked for a role swap.
+//! Teamwork on the pitch: a ring in the ball's colour round the robot that claims the ball, a line from each supporter to what it
+//! supports, an amber ring round each robot that is locked for a role swap.
 
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;

@@ -113,7 +113,7 @@ impl Arrow {
     }
 }
 
-/// Places for labels, none upon another.
+/// Places for labels that do not overlap.
 #[derive(Clone, Debug, Default)]
 pub struct Labels(Vec<Rect>);
 

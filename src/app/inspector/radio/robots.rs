@@ -1,5 +1,4 @@
-//! The page of the radio's panel with a row for each robot: how much it said, what became of that, and buttons for what may
-//! befall it.
+//! The page of the radio's panel with a row for each robot: how much it said, how much arrived, and buttons for failures.
 
 use bevy_egui::egui::{self, RichText};
 

@@ -1,4 +1,4 @@
-//! The running assemblage: a row a motor schema with its vector and its weight, what they add up to, and what becomes of that.
+//! The running assemblage: a row for each motor schema with its vector and its weight, their sum, and the intent that follows.
 
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};

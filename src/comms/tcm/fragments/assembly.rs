@@ -24,7 +24,7 @@ pub struct Assembly {
     counters: AssemblyCounters,
 }
 
-/// What became of the datagrams of an assembly, and of the messages in them.
+/// Counts of an assembly's datagrams and of the messages in them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct AssemblyCounters {
     /// Messages that came in a single datagram.

@@ -13,7 +13,7 @@ pub struct Limits {
     pub bytes: usize,
     /// The longest data of a message, bytes.
     pub message_bytes: usize,
-    /// An unfinished message is given up so many ticks after its first fragment.
+    /// An unfinished message is given up this many ticks after its first fragment.
     pub patience: u64,
 }
 

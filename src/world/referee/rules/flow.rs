@@ -1,6 +1,6 @@
 //! How a match flows: kick-off, ready, set, playing, half time, the end.
 //!
-//! Whoever owes a kick-off sets [`Phase::Initial`]; [`kick_off`] takes it within the same sample.
+//! A rule that owes a kick-off sets [`Phase::Initial`]; [`kick_off`] takes it within the same sample.
 
 use bevy::prelude::Vec2;
 

@@ -10,7 +10,7 @@ use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::rulebook::RuleBook;
 use crate::world::referee::state::{Hold, MatchState, Phase, Spell};
 
-/// Takes off whoever holds the ball too long or carries it too far: a field player for the time of a removal, a
+/// Takes off a robot that holds the ball too long or carries it too far: a field player for the time of a removal, a
 /// goalkeeper for none. The ball stays where it is.
 pub(super) fn ball_holding(
     laws: &Laws,

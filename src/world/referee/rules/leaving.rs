@@ -5,7 +5,7 @@ use crate::ids::RobotId;
 use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::state::{MatchState, Phase};
 
-/// Takes robots off whose centre is too far beyond the lines. Whoever only follows the ball over a line may do so.
+/// Takes robots off whose centre is too far beyond the lines. A robot may follow the ball over a line.
 pub(super) fn leaving(
     laws: &Laws,
     observation: &Observation,

@@ -57,7 +57,7 @@ pub struct Observation<'a> {
     pub ball: Vec2,
     /// The robots on the field, sorted by id.
     pub robots: &'a [(RobotId, Vec2)],
-    /// The robots that touch the ball, in any order; whoever holds it need not be among them.
+    /// The robots that touch the ball, in any order; the robot that holds it need not be among them.
     pub touching: &'a [RobotId],
     /// The robot that has the ball so firmly that nobody else gets at it, under its chin for instance.
     pub held_by: Option<RobotId>,
@@ -117,7 +117,7 @@ pub struct Rule {
 /// 7. `out` moves the ball before others ask where it is. It comes after `goal`, as a goal is no ball that is out.
 /// 8. `returns` comes before what removes robots, so that a removal starts with its full time.
 /// 9. Of the rules that remove robots the first that bites gives the reason. `stuck` is the last of them, since it may be
-///    enough to take off whoever is at fault.
+///    enough to take off the robot at fault.
 /// 10. `no progress` knows who has just come or gone, so that it finds a free spot.
 /// 11. `kick-off` is last: several rules may owe one, and one is taken.
 pub const RULES: &[Rule] = &[

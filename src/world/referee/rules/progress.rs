@@ -1,6 +1,6 @@
 //! No progress: a ball that stays about where it is goes to the nearest free spot.
 //!
-//! The clock starts anew wherever the ball is [`RuleBook::no_progress_distance`](crate::world::referee::rulebook::RuleBook) away
+//! The clock restarts when the ball is [`RuleBook::no_progress_distance`](crate::world::referee::rulebook::RuleBook) away
 //! from where it was when the clock started. Between two samples the ball is taken to roll straight, so that the clock
 //! starts at the same places for every step size.
 

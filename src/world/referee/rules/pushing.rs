@@ -12,7 +12,7 @@ use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::rulebook::{Pushing, RuleBook};
 use crate::world::referee::state::{MatchState, Phase, Spell};
 
-/// Takes off whoever has pushed opponents for too long.
+/// Takes off a robot that has pushed opponents for too long.
 pub(super) fn pushing(
     laws: &Laws,
     observation: &Observation,
