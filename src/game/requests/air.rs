@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::requests::{Request, Requests, Weather};
+use super::request::{Request, Requests, Weather};
 use crate::comms::radio::{Channel, Conditions, FaultRules};
 use crate::data::Bound;
 

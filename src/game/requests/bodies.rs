@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
-use super::requests::{Request, Requests, Shove};
+use super::request::{Request, Requests, Shove};
 use crate::data::Bound;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;

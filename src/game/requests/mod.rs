@@ -3,7 +3,7 @@
 
 mod air;
 mod bodies;
-mod requests;
+mod request;
 mod robots;
 #[cfg(test)]
 mod tests;
@@ -20,11 +20,11 @@ use crate::robot::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::referee::PenaltiesDue;
-pub use requests::{Calibration, Request, Requests, Script, Shove, Treatment, Weather};
+pub use request::{Calibration, Request, Requests, Script, Shove, Treatment, Weather};
 
 pub(super) fn plugin(app: &mut App) {
     let in_order = (
-        requests::follow_script,
+        request::follow_script,
         carry_out_requests,
         air::change_weather,
         robots::treat_robots,

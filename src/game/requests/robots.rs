@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::requests::{Calibration, Request, Requests, Treatment};
+use super::request::{Calibration, Request, Requests, Treatment};
 use crate::clock::Clock;
 use crate::comms::tcm::TcmClient;
 use crate::ids::RobotId;
