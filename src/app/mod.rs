@@ -2,7 +2,11 @@
 
 pub mod cli;
 #[cfg(feature = "window")]
+mod headless_check;
+#[cfg(feature = "window")]
 pub mod inspector;
 pub mod logging;
 #[cfg(feature = "window")]
 pub mod view;
+#[cfg(feature = "window")]
+mod window;

@@ -26,17 +26,17 @@ use ending::{CommandError, EXIT_CODES, Ending};
 #[command(name = "touchline", version, after_help = EXIT_CODES)]
 struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<CliCommand>,
     /// The folder with strategies, pitches, robots and matches.
     #[arg(long, global = true, value_name = "FOLDER")]
     assets: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum CliCommand {
     /// Open the window and play; without a display, play headless.
     #[command(after_help = EXIT_CODES)]
-    Play(play::Play),
+    Play(play::PlayCommand),
     /// Play a match headless, as fast as it goes, and print the result.
     #[command(after_help = EXIT_CODES)]
     Run(run::Run),
@@ -60,17 +60,17 @@ pub fn main() -> ExitCode {
 impl Cli {
     fn perform(self) -> Result<Ending, CommandError> {
         // The window has its own log.
-        if !matches!(self.command, None | Some(Command::Play(_))) {
+        if !matches!(self.command, None | Some(CliCommand::Play(_))) {
             crate::app::logging::log_to_stderr();
         }
         let assets = AssetFolder::find(self.assets.as_deref())?;
         let mut out = io::stdout();
         let ending = match self.command {
-            None => play::Play::default().run(&assets, &mut out),
-            Some(Command::Play(play)) => play.run(&assets, &mut out),
-            Some(Command::Run(run)) => run.run(&assets, &mut out),
-            Some(Command::Robot(robot)) => robot.run(&assets, &mut out),
-            Some(Command::Check(check)) => check.run(&assets, &mut out),
+            None => play::PlayCommand::default().run(&assets, &mut out),
+            Some(CliCommand::Play(play)) => play.run(&assets, &mut out),
+            Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
+            Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),
+            Some(CliCommand::Check(check)) => check.run(&assets, &mut out),
         }?;
         out.flush()?;
         Ok(ending)

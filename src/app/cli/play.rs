@@ -5,9 +5,9 @@ use std::path::Path;
 
 use clap::Args;
 
-use super::ending::{CommandError, Ending, tell};
-use super::interrupt::Interrupt;
-use super::options::{HostOptions, MatchOptions, SeedOption};
+use crate::app::cli::ending::{CommandError, Ending, tell};
+use crate::app::cli::interrupt::Interrupt;
+use crate::app::cli::options::{HostOptions, MatchOptions, SeedOption};
 use crate::data::{AssetFolder, AssetKind, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
@@ -15,7 +15,7 @@ use crate::lab::scenario::ScenarioPlan;
 use crate::rng::DEFAULT_SEED;
 
 #[derive(Args, Debug, Default)]
-pub(super) struct Play {
+pub(super) struct PlayCommand {
     /// A scenario: a name among the assets or a path; played with its first seed unless another is given, and with
     /// the ball at the first of its places.
     #[arg(conflicts_with_all = ["MatchOptions", "HostOptions", "pilot"])]
@@ -31,7 +31,7 @@ pub(super) struct Play {
     pilot: Option<RobotId>,
 }
 
-impl Play {
+impl PlayCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(name) = &self.scenario {
             return self.run_scenario(assets, &assets.file(AssetKind::Scenario, name), out);
@@ -39,7 +39,7 @@ impl Play {
         let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
         let plan = MatchPlan::read(assets, &choice)?;
         let Some(missing) = missing_for_a_window() else {
-            return Ok(open_window(assets, self.chooses(&choice).then_some(Wanted::Match(choice))));
+            return Ok(open_window(assets, self.chooses(&choice).then_some(MatchRequest::Match(choice))));
         };
         if self.pilot.is_some() {
             return Err(
@@ -66,7 +66,7 @@ impl Play {
         let mut plan = ScenarioPlan::read(assets, path)?;
         let seed = self.seed.seed;
         let Some(missing) = missing_for_a_window() else {
-            return Ok(open_window(assets, Some(Wanted::Scenario { path: path.to_owned(), seed })));
+            return Ok(open_window(assets, Some(MatchRequest::Scenario { path: path.to_owned(), seed })));
         };
         let interrupt = Interrupt::listen();
         tell(format_args!("{missing}, so the scenario is played headless"));
@@ -85,12 +85,14 @@ impl Play {
 }
 
 #[cfg(feature = "window")]
-use crate::app::view::{Wanted, missing_for_a_window};
+use crate::app::headless_check::missing_for_a_window;
+#[cfg(feature = "window")]
+use crate::app::window::MatchRequest;
 
 #[cfg(feature = "window")]
-fn open_window(assets: &AssetFolder, wanted: Option<Wanted>) -> Ending {
-    use crate::app::view::WindowEnd;
-    match crate::app::view::open_window(assets, wanted) {
+fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Ending {
+    use crate::app::window::WindowEnd;
+    match crate::app::window::open_window(assets, wanted) {
         WindowEnd::Closed => Ending::Done,
         WindowEnd::ScenarioFailed => Ending::Failed,
         WindowEnd::Interrupted => Ending::Interrupted,
@@ -101,7 +103,7 @@ fn open_window(assets: &AssetFolder, wanted: Option<Wanted>) -> Ending {
 /// What would be shown.
 #[cfg(not(feature = "window"))]
 #[expect(dead_code, reason = "a build without a window shows nothing")]
-enum Wanted {
+enum MatchRequest {
     Match(Choice),
     Scenario { path: std::path::PathBuf, seed: Option<u64> },
 }
@@ -112,7 +114,7 @@ fn missing_for_a_window() -> Option<&'static str> {
 }
 
 #[cfg(not(feature = "window"))]
-fn open_window(_: &AssetFolder, _: Option<Wanted>) -> Ending {
+fn open_window(_: &AssetFolder, _: Option<MatchRequest>) -> Ending {
     Ending::WindowFailed
 }
 
@@ -123,14 +125,14 @@ mod tests {
     use super::*;
 
     #[derive(Parser)]
-    struct Program {
+    struct PlayArguments {
         #[command(flatten)]
-        play: Play,
+        play: PlayCommand,
     }
 
     fn chooses(arguments: &[&str]) -> bool {
-        let program = Program::try_parse_from([&["play"], arguments].concat()).expect("good arguments");
-        let Play { options, host, seed, pilot, .. } = &program.play;
+        let program = PlayArguments::try_parse_from([&["play"], arguments].concat()).expect("good arguments");
+        let PlayCommand { options, host, seed, pilot, .. } = &program.play;
         let choice = Choice { pilot: *pilot, ..host.choice(options, seed).expect("a sound choice") };
         program.play.chooses(&choice)
     }

@@ -7,14 +7,14 @@ use crate::robot::{Drive, Eyes, RobotKind, Sensing};
 
 /// A robot's own copy of its values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Values {
+pub struct RobotValues {
     pub kind: RobotKind,
     pub sensing: Sensing,
 }
 
-impl Values {
-    pub fn of(kind: &RobotKind, sensing: &Sensing) -> Values {
-        Values { kind: kind.clone(), sensing: sensing.clone() }
+impl RobotValues {
+    pub fn of(kind: &RobotKind, sensing: &Sensing) -> RobotValues {
+        RobotValues { kind: kind.clone(), sensing: sensing.clone() }
     }
 
     /// These values as something to be asked for.
@@ -33,7 +33,7 @@ pub struct Knob {
     pub decimals: usize,
     pub tip: &'static str,
     /// The value, if this robot has it.
-    pub at: fn(&mut Values) -> Option<&mut f32>,
+    pub at: fn(&mut RobotValues) -> Option<&mut f32>,
 }
 
 macro_rules! knob {
@@ -238,12 +238,12 @@ mod tests {
     use crate::game::{Choice, MatchPlan};
     use crate::ids::Team;
 
-    fn values(file: &str) -> Values {
+    fn values(file: &str) -> RobotValues {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         let choice = Choice { file: Some(file.into()), ..Choice::default() };
         let plan = MatchPlan::read(&assets, &choice).expect("the match is sound");
         let team = plan.team(Team::Home);
-        Values::of(&team.kind, &team.sensing)
+        RobotValues::of(&team.kind, &team.sensing)
     }
 
     #[test]

@@ -10,12 +10,12 @@ use crate::mind::world_model::RobotBelief;
 
 /// A robot that is believed in, that is there, or both.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
+pub struct BeliefPair {
     pub belief: Option<RobotBelief>,
     pub truth: Option<(RobotId, Vec2)>,
 }
 
-impl Pair {
+impl BeliefPair {
     /// The believed and the true place, where there is one, m.
     pub fn places(&self) -> (Option<Vec2>, Option<Vec2>) {
         (self.belief.map(|belief| belief.position), self.truth.map(|(_, at)| at))
@@ -28,25 +28,26 @@ pub fn error((believed, truth): (Option<Vec2>, Option<Vec2>)) -> Option<f32> {
 }
 
 /// The pairs of a match's robots.
-pub type Pairs = SmallVec<[Pair; 16]>;
+pub type BeliefPairs = SmallVec<[BeliefPair; 16]>;
 
 /// A belief farther than this from every robot of its team stands for none, m.
 const GHOST: f32 = 1.5;
 
-/// Pairs beliefs with the truth, nearest first, each at most once, both in one frame. True robots come first and in their
+/// BeliefPairs beliefs with the truth, nearest first, each at most once, both in one frame. True robots come first and in their
 /// given order, then the beliefs that stand for nothing.
-pub fn pair(beliefs: &[RobotBelief], truth: &[(RobotId, Vec2)]) -> Pairs {
-    let mut pairs: Pairs = truth.iter().map(|robot| Pair { belief: None, truth: Some(*robot) }).collect();
+pub fn pair(beliefs: &[RobotBelief], truth: &[(RobotId, Vec2)]) -> BeliefPairs {
+    let mut pairs: BeliefPairs =
+        truth.iter().map(|robot| BeliefPair { belief: None, truth: Some(*robot) }).collect();
     let mut free: SmallVec<[RobotBelief; 16]> = beliefs.iter().copied().collect();
     while let Some((robot, belief)) = nearest(&pairs, &free) {
         pairs[robot].belief = Some(free.remove(belief));
     }
-    pairs.extend(free.into_iter().map(|belief| Pair { belief: Some(belief), truth: None }));
+    pairs.extend(free.into_iter().map(|belief| BeliefPair { belief: Some(belief), truth: None }));
     pairs
 }
 
 /// Indices of the nearest robot without a belief and belief without a robot.
-fn nearest(pairs: &[Pair], free: &[RobotBelief]) -> Option<(usize, usize)> {
+fn nearest(pairs: &[BeliefPair], free: &[RobotBelief]) -> Option<(usize, usize)> {
     let mut best = None;
     let mut least = GHOST;
     for (index, open) in pairs.iter().enumerate().filter(|(_, pair)| pair.belief.is_none()) {

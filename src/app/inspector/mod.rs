@@ -1,21 +1,19 @@
 //! The inspector: what goes on inside one robot, in a panel beside the pitch and drawn on it.
 //!
-//! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: figures, matching, kinds of
-//! schemas, outlines.
+//! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: matching, kinds of schemas,
+//! outlines.
 
 mod calibration;
 mod communication;
-mod figures;
-mod kinds;
 mod matching;
+mod outlines;
 mod overlays;
 mod panel;
 mod radio;
+mod schema_kinds;
 mod sections;
-mod strokes;
 mod subject;
 mod table;
-mod tints;
 mod weights;
 mod world_view;
 

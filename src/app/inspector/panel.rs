@@ -5,17 +5,15 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
-use super::sections::{self, Desk};
-use super::subject::{Looked, Scene};
+use super::sections::{self, PanelActions};
+use super::subject::{InspectedMatch, SelectedRobot};
 use super::weights::Weights;
-use crate::app::view::actions::Action;
-use crate::app::view::keys::Keyboard;
-use crate::app::view::layout::{Edge, FreeArea, PanelSystems, SizedPanel};
-use crate::app::view::levers::Levers;
-use crate::app::view::opened::{Inspector, Remembered};
-use crate::app::view::session::Session;
-use crate::app::view::settings::PanelSizes;
-use crate::app::view::state::{Piloted, Screen};
+use crate::app::view::input::keyboard::Keyboard;
+use crate::app::view::input::manual_control::ManualControl;
+use crate::app::view::interface::dock::SizedPanel;
+use crate::app::view::state::{
+    Action, Edge, FreeArea, Inspector, PanelSizes, PanelSystems, Piloted, RememberedPanels, Screen, Session,
+};
 use crate::game::requests::Requests;
 
 pub(super) fn plugin(app: &mut App) {
@@ -35,9 +33,9 @@ struct Changes<'w> {
     requests: ResMut<'w, Requests>,
     weights: ResMut<'w, Weights>,
     piloted: ResMut<'w, Piloted>,
-    levers: ResMut<'w, Levers>,
+    levers: ResMut<'w, ManualControl>,
     sizes: ResMut<'w, PanelSizes>,
-    remembered: ResMut<'w, Remembered>,
+    remembered: ResMut<'w, RememberedPanels>,
     keyboard: Res<'w, Keyboard>,
     session: Res<'w, Session>,
 }
@@ -45,7 +43,7 @@ struct Changes<'w> {
 fn dock(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
-    scene: Scene,
+    scene: InspectedMatch,
     mut changes: Changes,
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
@@ -76,9 +74,9 @@ fn dock(
     Ok(())
 }
 
-fn fill(ui: &mut egui::Ui, robot: &Looked, changes: &mut Changes) {
+fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
     set_close(ui);
-    let mut desk = Desk {
+    let mut desk = PanelActions {
         requests: &mut changes.requests,
         weights: &mut changes.weights,
         piloted: &mut changes.piloted,

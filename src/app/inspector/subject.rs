@@ -7,6 +7,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
+use crate::app::view::format;
 use crate::app::view::state::Selected;
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Twist};
@@ -51,7 +52,7 @@ pub struct Subject {
 
 /// The match, as far as the inspector looks at it.
 #[derive(SystemParam)]
-pub struct Scene<'w, 's> {
+pub struct InspectedMatch<'w, 's> {
     pub clock: Res<'w, Clock>,
     pub state: Res<'w, MatchState>,
     pub strategies: Res<'w, Strategies>,
@@ -71,7 +72,7 @@ pub struct TrueBall {
 }
 
 /// The selected robot, with the truth in its team frame.
-pub struct Looked<'a> {
+pub struct SelectedRobot<'a> {
     pub of: SubjectItem<'a, 'a>,
     pub id: RobotId,
     pub strategy: &'a Strategy,
@@ -85,14 +86,14 @@ pub struct Looked<'a> {
     pub others: SmallVec<[(RobotId, Vec2); 16]>,
 }
 
-impl Scene<'_, '_> {
+impl InspectedMatch<'_, '_> {
     /// What there is to see of the selected robot; none without a selection, or where the robot has gone.
-    pub fn looked(&self) -> Option<Looked<'_>> {
+    pub fn looked(&self) -> Option<SelectedRobot<'_>> {
         self.looked_with(|_, pose| pose)
     }
 
     /// The same, with every body where `placed` puts it, in the pitch frame.
-    pub fn looked_with(&self, placed: impl Fn(Entity, Pose) -> Pose) -> Option<Looked<'_>> {
+    pub fn looked_with(&self, placed: impl Fn(Entity, Pose) -> Pose) -> Option<SelectedRobot<'_>> {
         let id = self.selected.0?;
         let of = self.subjects.iter().find(|subject| *subject.id == id)?;
         let ends = self.state.attacking(id.team);
@@ -101,7 +102,7 @@ impl Scene<'_, '_> {
             .map(|other| (*other.id, ends.turn(placed(other.entity, *other.pose).position)))
             .collect();
         others.sort_unstable_by_key(|(id, _)| *id);
-        Some(Looked {
+        Some(SelectedRobot {
             id,
             strategy: self.strategies.of(id.team),
             state: &self.state,
@@ -119,10 +120,10 @@ impl Scene<'_, '_> {
     }
 }
 
-impl<'a> Looked<'a> {
+impl<'a> SelectedRobot<'a> {
     /// Seconds since a tick.
     pub fn since(&self, tick: u64) -> f32 {
-        super::figures::span(tick, self.clock.tick, self.clock.dt)
+        format::span(tick, self.clock.tick, self.clock.dt)
     }
 
     /// The state of the machine that the robot is in.

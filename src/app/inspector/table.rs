@@ -1,9 +1,10 @@
 //! Rows of figures that stand still: a name on the left, figures in columns of a fixed width on the right.
 
+use std::sync::Arc;
+
 use bevy_egui::egui::{
     self, Align2, Color32, Galley, Pos2, Rect, Response, Sense, TextStyle, Ui, WidgetText,
 };
-use std::sync::Arc;
 
 /// Width of a column of figures, in points: room for `−10.55`.
 pub const COLUMN: f32 = 47.0;

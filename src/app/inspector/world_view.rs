@@ -6,8 +6,7 @@ use bevy::prelude::*;
 use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
-use crate::app::view::layout::PanelSystems;
-use crate::app::view::opened::Inspector;
+use crate::app::view::state::{Inspector, PanelSystems};
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::robot::pilot::Pilot;

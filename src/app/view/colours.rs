@@ -34,8 +34,15 @@ pub const CLAIM: Color = BALL;
 pub const LOCK: Color = rgb(0xFF_B3_00);
 /// A message that got lost.
 pub const LOST: Color = rgb(0x9A_A2_9D);
-/// The ring of a robot under a person's hand, and what sensors said.
+/// The ring of a robot under a person's hand.
 pub const PILOT: Color = rgb(0xFF_FF_FF);
+
+/// What the robot's sensors said.
+pub const SENSED: Color = PILOT;
+/// The sum of all schemas.
+pub const SUM: Color = PILOT;
+/// A value that is not the file's.
+pub const CHANGED: Color = rgb(0x73_B8_FF);
 
 /// Text on panels.
 pub const TEXT: Color = rgb(0xE6_EA_E7);
@@ -72,6 +79,13 @@ pub const fn team_text(team: Team) -> Color {
         Team::Home => rgb(0xF0_7C_C4),
         Team::Away => rgb(0x5F_D5_E6),
     }
+}
+
+/// The colour of a robot's number among its team mates, where it tells who has booked the ball.
+pub fn number(number: u8) -> Color {
+    const COLOURS: [u32; 8] =
+        [0x8E_B8_E5, 0xE6_E0_8A, 0x9C_CF_8E, 0xC9_A2_7E, 0xB7_A3_E0, 0x7F_C9_C0, 0xD7_D7_D2, 0xC9_8F_B4];
+    rgb(COLOURS[usize::from(number) % COLOURS.len()])
 }
 
 /// The same colour for egui.

@@ -4,8 +4,7 @@ use bevy_egui::egui::{self, vec2};
 
 use super::columns::{self, Column, figures, heading, row, words};
 use super::modules::Names;
-use crate::app::inspector::{figures as numbers, tints};
-use crate::app::view::colours;
+use crate::app::view::{colours, format};
 use crate::clock::Clock;
 use crate::comms::tcm::fragments::{Assembly, AssemblyCounters, Unfinished};
 use crate::ids::RobotId;
@@ -63,7 +62,7 @@ pub fn show(ui: &mut egui::Ui, robot: Option<(RobotId, &Assembly)>, clock: &Cloc
         ui.vertical(|ui| {
             let limits = assembly.limits();
             ui.weak("Limits");
-            let patience = numbers::seconds(numbers::span(0, limits.patience, clock.dt));
+            let patience = format::seconds(format::span(0, limits.patience, clock.dt));
             for (name, value, tip) in [
                 (
                     "unfinished",
@@ -116,7 +115,7 @@ fn show_message(ui: &mut egui::Ui, message: &Unfinished, assembly: &Assembly, cl
         format!("{} of {}", message.have, message.of),
         String::new(),
         message.bytes.to_string(),
-        numbers::seconds(numbers::span(0, age, clock.dt)),
+        format::seconds(format::span(0, age, clock.dt)),
     ];
     let shown = row(ui, &OPEN, &cells);
     let left: f32 = OPEN[..5].iter().map(|column| column.width).sum();
@@ -126,11 +125,11 @@ fn show_message(ui: &mut egui::Ui, message: &Unfinished, assembly: &Assembly, cl
         vec2(room, 8.0),
     );
     let share = f32::from(message.have) / f32::from(message.of.max(1));
-    ui.painter().rect_filled(whole, 2.0, tints::egui(colours::SUNKEN));
+    ui.painter().rect_filled(whole, 2.0, colours::egui(colours::SUNKEN));
     let have = whole.with_max_x(whole.left() + share * room);
-    ui.painter().rect_filled(have, 2.0, tints::egui(colours::ACCENT));
+    ui.painter().rect_filled(have, 2.0, colours::egui(colours::ACCENT));
     let left = assembly.limits().patience.saturating_sub(age);
-    let left = numbers::seconds(numbers::span(0, left, clock.dt));
+    let left = format::seconds(format::span(0, left, clock.dt));
     shown.on_hover_text(format!("It is given up in {left} unless the rest arrives"));
 }
 

@@ -2,59 +2,58 @@
 //! type, the queues in which their data wait, messages that arrived in part, and the referee box's view of the match.
 
 mod columns;
+mod counters;
 mod fragments;
 mod modules;
 mod referee;
-mod tally;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+use counters::SummedCounters;
 use egui::RichText;
 
-use super::tints;
-use crate::app::view::actions::Action;
 use crate::app::view::colours;
-use crate::app::view::keys::Keyboard;
-use crate::app::view::layout::{Edge, FreeArea, PanelSystems, SizedPanel};
-use crate::app::view::settings::PanelSizes;
-use crate::app::view::state::{Overlay, Overlays, Screen, Selected};
+use crate::app::view::input::keyboard::Keyboard;
+use crate::app::view::interface::dock::SizedPanel;
+use crate::app::view::state::{
+    Action, Edge, FreeArea, Overlay, Overlays, PanelSizes, PanelSystems, Screen, Selected, shows,
+};
 use crate::clock::Clock;
 use crate::comms::tcm::{DataType, Registry, Tcm, TcmClient};
 use crate::ids::{RobotId, Team};
 use crate::robot::Orders;
 use crate::world::gamecontroller::BoxNews;
 use crate::world::referee::MatchState;
-use tally::Tally;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<CommunicationView>().add_systems(
         EguiPrimaryContextPass,
         dock.in_set(PanelSystems::Low)
-            .run_if(in_state(Screen::Match).and_then(|overlays: Res<Overlays>| overlays.communication)),
+            .run_if(in_state(Screen::Match).and_then(shows(Overlay::Communication))),
     );
 }
 
 /// What of the team communication is looked at.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct CommunicationView {
-    page: Page,
+    page: CommunicationPage,
     whose: Whose,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Page {
+enum CommunicationPage {
     #[default]
     Modules,
     Fragments,
     Referee,
 }
 
-impl Page {
-    const ALL: [(Page, &'static str, &'static str); 3] = [
-        (Page::Modules, "Modules", "What modules said and heard of each type, and their queues"),
-        (Page::Fragments, "Fragments", "Messages that the selected robot has received in part"),
-        (Page::Referee, "Referee", "What the GameController says, and what each robot was told"),
+impl CommunicationPage {
+    const ALL: [(CommunicationPage, &'static str, &'static str); 3] = [
+        (CommunicationPage::Modules, "Modules", "What modules said and heard of each type, and their queues"),
+        (CommunicationPage::Fragments, "Fragments", "Messages that the selected robot has received in part"),
+        (CommunicationPage::Referee, "Referee", "What the GameController says, and what each robot was told"),
     ];
 }
 
@@ -81,7 +80,7 @@ impl Whose {
 
 /// What there is to see of the team communication.
 #[derive(SystemParam)]
-struct Heard<'w, 's> {
+struct CommunicationData<'w, 's> {
     clock: Res<'w, Clock>,
     state: Res<'w, MatchState>,
     registry: Res<'w, Registry>,
@@ -90,9 +89,9 @@ struct Heard<'w, 's> {
     robots: Query<'w, 's, (&'static RobotId, &'static Tcm, &'static TcmClient, &'static Orders)>,
 }
 
-impl Heard<'_, '_> {
-    fn tally(&self, whose: Whose) -> Tally {
-        let mut tally = Tally::default();
+impl CommunicationData<'_, '_> {
+    fn tally(&self, whose: Whose) -> SummedCounters {
+        let mut tally = SummedCounters::default();
         tally.name(self.registry.types().map(|(data_type, known)| (known.module, data_type)));
         for (id, tcm, client, _) in self.robots.iter() {
             if whose.includes(*id, self.selected.0) {
@@ -123,7 +122,7 @@ const PAGE: f32 = 100.0;
 fn dock(
     mut contexts: EguiContexts,
     (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
-    heard: Heard,
+    heard: CommunicationData,
     mut view: ResMut<CommunicationView>,
     (mut sizes, keyboard): (ResMut<PanelSizes>, Res<Keyboard>),
 ) -> Result {
@@ -157,42 +156,42 @@ fn dock(
             .inner
     });
     if closed == Some(true) {
-        overlays.communication = false;
+        overlays.set(Overlay::Communication, false);
     }
     Ok(())
 }
 
-fn show_page(ui: &mut egui::Ui, page: Page, whose: Whose, heard: &Heard) {
+fn show_page(ui: &mut egui::Ui, page: CommunicationPage, whose: Whose, heard: &CommunicationData) {
     let names = |data_type: DataType| heard.name_of(data_type);
     match page {
-        Page::Modules => modules::show(ui, &heard.tally(whose), &names),
-        Page::Fragments => {
+        CommunicationPage::Modules => modules::show(ui, &heard.tally(whose), &names),
+        CommunicationPage::Fragments => {
             let looked_at = heard.robots.iter().find(|(id, ..)| Some(**id) == heard.selected.0);
             let assembly = looked_at.map(|(id, tcm, ..)| (*id, &tcm.assembly));
             fragments::show(ui, assembly, &heard.clock, &names);
         }
-        Page::Referee => {
+        CommunicationPage::Referee => {
             referee::show(ui, heard.news.as_deref(), &heard.state, &heard.clock, &heard.orders());
         }
     }
 }
 
 /// Shows the pages and whose counters are meant.
-fn show_head(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {
+fn show_head(ui: &mut egui::Ui, heard: &CommunicationData, view: &mut CommunicationView) {
     ui.label(RichText::new("Team communication").size(15.0).strong());
     ui.separator();
-    for (page, name, tip) in Page::ALL {
+    for (page, name, tip) in CommunicationPage::ALL {
         if ui.selectable_label(view.page == page, name).on_hover_text(tip).clicked() {
             view.page = page;
         }
     }
-    if view.page == Page::Modules {
+    if view.page == CommunicationPage::Modules {
         ui.separator();
         show_whose(ui, heard, view);
     }
 }
 
-fn show_whose(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {
+fn show_whose(ui: &mut egui::Ui, heard: &CommunicationData, view: &mut CommunicationView) {
     let selected = heard.selected.0;
     ui.weak("Counters of");
     let own = selected.map_or("all, none selected".into(), |robot| robot.to_string());
@@ -208,7 +207,7 @@ fn show_whose(ui: &mut egui::Ui, heard: &Heard, view: &mut CommunicationView) {
             Whose::All => None,
         };
         let text = match team {
-            Some(team) => RichText::new(name).color(tints::egui(colours::team_text(team))),
+            Some(team) => RichText::new(name).color(colours::egui(colours::team_text(team))),
             None => RichText::new(name),
         };
         if ui.selectable_label(view.whose == whose, text).on_hover_text(tip).clicked() {

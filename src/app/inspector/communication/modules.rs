@@ -3,8 +3,8 @@
 use bevy_egui::egui::{self, RichText};
 
 use super::columns::{self, Column, figures, heading, row, words};
-use super::tally::Tally;
-use crate::app::inspector::tints;
+use super::counters::SummedCounters;
+use crate::app::view::colours;
 use crate::comms::tcm::counters::{Dropped, TypeCount};
 use crate::comms::tcm::{DataType, Module};
 
@@ -34,7 +34,7 @@ const QUEUES: [Column; 5] = [
 /// A type's name, where somebody has registered it.
 pub type Names<'a> = &'a dyn Fn(DataType) -> String;
 
-pub fn show(ui: &mut egui::Ui, tally: &Tally, names: Names) {
+pub fn show(ui: &mut egui::Ui, tally: &SummedCounters, names: Names) {
     ui.horizontal_top(|ui| {
         let scroll = |name: &str| egui::ScrollArea::vertical().id_salt(name).auto_shrink(false);
         let wide = |ui: &mut egui::Ui, columns: &[Column]| ui.set_width(columns::width(columns) + 12.0);
@@ -52,7 +52,7 @@ pub fn show(ui: &mut egui::Ui, tally: &Tally, names: Names) {
     });
 }
 
-fn show_types(ui: &mut egui::Ui, tally: &Tally, names: Names) {
+fn show_types(ui: &mut egui::Ui, tally: &SummedCounters, names: Names) {
     let mut last: Option<Module> = None;
     let (used, idle): (Vec<_>, Vec<_>) =
         tally.types.iter().partition(|(_, count)| **count != TypeCount::default());
@@ -103,7 +103,7 @@ fn kilobytes(bytes: u64) -> String {
     format!("{:.1}", bytes as f64 / 1000.0)
 }
 
-fn show_queues(ui: &mut egui::Ui, tally: &Tally) {
+fn show_queues(ui: &mut egui::Ui, tally: &SummedCounters) {
     if tally.queues.is_empty() {
         ui.weak("no module has said anything yet");
     }
@@ -118,7 +118,7 @@ fn show_queues(ui: &mut egui::Ui, tally: &Tally) {
         let row = row(ui, &QUEUES, &cells);
         if counters.dropped > 0 {
             let at = row.rect.left_center() - egui::vec2(4.0, 0.0);
-            ui.painter().circle_filled(at, 2.0, tints::egui(crate::app::view::colours::PENALTY));
+            ui.painter().circle_filled(at, 2.0, colours::egui(crate::app::view::colours::PENALTY));
         }
     }
 }

@@ -4,9 +4,8 @@ use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
 use super::columns::{Column, figures, heading, row, words};
-use crate::app::inspector::{figures as numbers, tints};
-use crate::app::view::colours;
-use crate::app::view::labels::off_text;
+use crate::app::view::picture::labels::off_text;
+use crate::app::view::{colours, format};
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::robot::Orders;
@@ -88,7 +87,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
             ui.weak("A referee box is listened for, but has said nothing yet.");
         }
         Some(news) => {
-            let ago = numbers::seconds(numbers::span(news.last, clock.tick, clock.dt));
+            let ago = format::seconds(format::span(news.last, clock.tick, clock.dt));
             let who = match (news.sender, news.team_numbers) {
                 (Some((at, version)), Some([home, away])) => {
                     let version = version as u8;
@@ -99,7 +98,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
             if news.is_lost(clock) {
                 let text =
                     format!("The referee box{who} is silent since {ago}: all stand until one is heard.");
-                ui.colored_label(tints::egui(colours::CALL), text);
+                ui.colored_label(colours::egui(colours::CALL), text);
             } else {
                 ui.weak(format!("The referee box{who} decides; it was heard {ago} ago."));
             }
@@ -108,7 +107,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
     heading(ui, &MATCH);
     let view = news.and_then(|news| news.view.as_ref());
     for (name, said, stands) in rows(view, state) {
-        row(ui, &MATCH, &[name.into(), said.unwrap_or_else(|| numbers::UNKNOWN.into()), stands]);
+        row(ui, &MATCH, &[name.into(), said.unwrap_or_else(|| format::UNKNOWN.into()), stands]);
     }
     for (team, penalties) in
         Team::BOTH.into_iter().zip(view.map(|view| &view.penalties).into_iter().flatten())
@@ -117,7 +116,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
             let served = penalised.penalty.serving().map_or("", Serving::words);
             let (player, reason) = (penalised.player, penalised.penalty);
             let text = format!("{team} {player}: {reason}, {} s left, {served}", penalised.seconds_left);
-            ui.label(RichText::new(text).color(tints::egui(colours::team_text(team))));
+            ui.label(RichText::new(text).color(colours::egui(colours::team_text(team))));
         }
     }
 }
@@ -126,7 +125,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
 fn rows(view: Option<&View>, state: &MatchState) -> [(&'static str, Option<String>, String); 8] {
     let score = |[home, away]: [u32; 2]| format!("{home} : {away}");
     let half = |first: bool| if first { "first" } else { "second" }.to_owned();
-    let team = |side: usize| Team::BOTH.get(side).map_or(numbers::UNKNOWN.into(), Team::to_string);
+    let team = |side: usize| Team::BOTH.get(side).map_or(format::UNKNOWN.into(), Team::to_string);
     let kicks_off = Team::BOTH.into_iter().find(|team| state.kicks_off(*team));
     let kicks_off = kicks_off.map_or("nobody".into(), |team| team.to_string());
     let said = |words: &dyn Fn(&View) -> String| view.map(words);
@@ -169,7 +168,7 @@ fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchS
         _ if is_off => off_text(state, robot),
         _ if state.restraints.is_frozen(robot) => "penalised, stands where it is".into(),
         Some(place) if orders.state == crate::robot::RobotState::Ready => {
-            let [x, y] = numbers::coordinates(place.position);
+            let [x, y] = format::coordinates(place.position);
             format!("to {x}, {y} m")
         }
         _ => String::new(),
@@ -177,7 +176,11 @@ fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchS
     let cells = [robot.to_string(), orders.state.to_string(), more];
     let shown = row(ui, &ORDERS, &cells);
     let bar = shown.rect.with_max_x(shown.rect.left() - 3.0).with_min_x(shown.rect.left() - 6.0);
-    ui.painter().rect_filled(bar.shrink2(egui::vec2(0.0, 2.0)), 1.0, tints::egui(tints::team(robot.team)));
+    ui.painter().rect_filled(
+        bar.shrink2(egui::vec2(0.0, 2.0)),
+        1.0,
+        colours::egui(colours::team(robot.team)),
+    );
 }
 
 #[cfg(test)]

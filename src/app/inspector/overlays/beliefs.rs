@@ -4,8 +4,9 @@ use bevy::prelude::*;
 
 use super::Pens;
 use crate::app::inspector::matching::pair;
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::{strokes, tints};
+use crate::app::inspector::outlines;
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::view::colours;
 use crate::geometry::unit;
 
 /// Dashes in pixels.
@@ -13,15 +14,15 @@ const DASH: f32 = 5.0;
 /// Beliefs nearer to the truth than this need no line to it, m.
 const NEAR: f32 = 0.03;
 
-pub(super) fn draw(pens: &mut Pens, robot: &Looked, pixel: f32) {
+pub(super) fn draw(pens: &mut Pens, robot: &SelectedRobot, pixel: f32) {
     let model = robot.of.model;
     let reach = robot.of.robot.kind.reach();
-    let own = tints::team(robot.id.team);
+    let own = colours::team(robot.id.team);
     let turn = |v: Vec2| robot.ends.turn(v);
 
     let believed = robot.ends.turn_pose(model.pose);
     circle(pens, believed.position, reach, own, pixel);
-    for (a, b) in strokes::dashed_line(
+    for (a, b) in outlines::dashed_line(
         believed.position,
         believed.position + 1.3 * reach * unit(believed.heading),
         DASH * pixel,
@@ -39,7 +40,7 @@ pub(super) fn draw(pens: &mut Pens, robot: &Looked, pixel: f32) {
     }
     for pair in pair(&model.robots, &robot.others) {
         let Some(belief) = pair.belief else { continue };
-        let tint = tints::team(belief.team);
+        let tint = colours::team(belief.team);
         circle(pens, turn(belief.position), reach, tint, pixel);
         if let Some((_, truth)) = pair.truth {
             connect(pens, turn(belief.position), turn(truth), tint);
@@ -48,7 +49,7 @@ pub(super) fn draw(pens: &mut Pens, robot: &Looked, pixel: f32) {
 }
 
 fn circle(pens: &mut Pens, centre: Vec2, radius: f32, tint: Color, pixel: f32) {
-    for (a, b) in strokes::dashed_circle(centre, radius, DASH * pixel) {
+    for (a, b) in outlines::dashed_circle(centre, radius, DASH * pixel) {
         pens.strong.line_2d(a, b, tint);
     }
 }

@@ -5,14 +5,13 @@ use bevy::prelude::*;
 use bevy_egui::{EguiContexts, egui};
 
 use super::Pens;
-use crate::app::inspector::{figures, tints};
-use crate::app::view::camera::Sight;
-use crate::app::view::labels::{PADDING, lay_out};
-use crate::app::view::layout::FreeArea;
-use crate::app::view::nudge::{Choice, Placed};
-use crate::app::view::robots::reach;
-use crate::app::view::shown::Shown;
-use crate::app::view::state::{Overlays, Selected};
+use crate::app::view::picture::camera::PitchCamera;
+use crate::app::view::picture::label_placement::{LabelPlace, LabelPlacement};
+use crate::app::view::picture::labels::{PADDING, lay_out};
+use crate::app::view::picture::robots::reach;
+use crate::app::view::picture::visuals::BodyVisual;
+use crate::app::view::state::{FreeArea, Overlay, Overlays, Selected};
+use crate::app::view::{colours, format};
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::Booking;
@@ -45,8 +44,8 @@ impl Line {
     }
 
     fn words(&self, clock: &Clock) -> String {
-        let age = figures::seconds(figures::span(0, self.age, clock.dt));
-        format!("{}, {age}", figures::metres(self.distance.metres()))
+        let age = format::seconds(format::span(0, self.age, clock.dt));
+        format!("{}, {age}", format::metres(self.distance.metres()))
     }
 }
 
@@ -74,16 +73,16 @@ pub(super) struct Booked<'w, 's> {
     robots: Query<'w, 's, (&'static RobotId, &'static Robot, &'static Booking), Without<OffPitch>>,
     kind: Res<'w, BallKind>,
     ball: Query<'w, 's, Entity, With<Ball>>,
-    shown: Query<'w, 's, &'static Shown>,
+    shown: Query<'w, 's, &'static BodyVisual>,
 }
 
 impl Booked<'_, '_> {
     /// Each line with its two ends on the pitch: beside the booker, and at the ball.
     fn placed(&self) -> Vec<(Line, Vec2, Vec2)> {
-        let Some(ball) = self.ball.iter().next().filter(|_| self.overlays.teamwork) else {
+        let Some(ball) = self.ball.iter().next().filter(|_| self.overlays.shows(Overlay::Teamwork)) else {
             return Vec::new();
         };
-        let at = |found: &dyn Fn(&Shown) -> bool| {
+        let at = |found: &dyn Fn(&BodyVisual) -> bool| {
             self.shown.iter().find(|shown| found(shown)).map(|shown| shown.pose.position)
         };
         let Some(to) = at(&|shown| shown.body == ball) else { return Vec::new() };
@@ -109,7 +108,7 @@ impl Booked<'_, '_> {
 pub(super) fn draw(booked: Booked, mut pens: Pens) {
     let radius = ROUND * booked.kind.radius;
     for (line, from, to) in booked.placed() {
-        let tint = tints::lighter(line.booker.team);
+        let tint = colours::team_text(line.booker.team);
         pens.strong.line_2d(from, to, tint);
         let way = (to - from).normalize_or_zero();
         let around = to + radius * way;
@@ -121,10 +120,10 @@ pub(super) fn draw(booked: Booked, mut pens: Pens) {
 
 pub(super) fn write(
     mut contexts: EguiContexts,
-    (area, sight): (Res<FreeArea>, Res<Sight>),
-    mut placed: ResMut<Placed>,
+    (area, sight): (Res<FreeArea>, Res<PitchCamera>),
+    mut placed: ResMut<LabelPlacement>,
     booked: Booked,
-    mut choices: Local<[Choice; 2]>,
+    mut choices: Local<[LabelPlace; 2]>,
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
     let layer = egui::LayerId::new(egui::Order::Background, egui::Id::new("bookings on the pitch"));
@@ -135,7 +134,7 @@ pub(super) fn write(
         if std::mem::replace(&mut told[team.index()], true) {
             continue;
         }
-        let galley = lay_out(&painter, &[(line.words(&booked.clock), tints::lighter(team))]);
+        let galley = lay_out(&painter, &[(line.words(&booked.clock), colours::team_text(team))]);
         let room = galley.size() + 2.0 * PADDING;
         let middle = sight.to_screen(from.midpoint(to));
         let choice = &mut choices[team.index()];

@@ -4,11 +4,11 @@
 use bevy::prelude::*;
 
 use super::Pens;
+use crate::app::inspector::outlines;
 use crate::app::inspector::radio::{RadioView, is_of_a_swap, way_of_a_lost_one};
-use crate::app::inspector::{strokes, tints};
 use crate::app::view::colours;
-use crate::app::view::shown::Shown;
-use crate::app::view::state::{Overlays, Pace};
+use crate::app::view::picture::visuals::BodyVisual;
+use crate::app::view::state::{Overlay, Overlays, Playback};
 use crate::clock::Clock;
 use crate::comms::radio::{Outcome, RadioLog, Transmission};
 use crate::ids::RobotId;
@@ -66,12 +66,12 @@ fn look(message: &Transmission, now: f64, dt: f32) -> Option<Look> {
 
 pub(super) fn draw(
     (overlays, view): (Res<Overlays>, Res<RadioView>),
-    (clock, pace, log): (Res<Clock>, Res<Pace>, Res<RadioLog>),
-    shown: Query<&Shown>,
+    (clock, pace, log): (Res<Clock>, Res<Playback>, Res<RadioLog>),
+    shown: Query<&BodyVisual>,
     camera: Query<(&Camera, &GlobalTransform), With<Camera2d>>,
     mut pens: Pens,
 ) {
-    if !overlays.teamwork {
+    if !overlays.shows(Overlay::Teamwork) {
         return;
     }
     let pixel = super::pixel(&camera);
@@ -85,7 +85,7 @@ pub(super) fn draw(
     for message in recent.filter(|message| view.filter.passes(message)) {
         let Some(look) = look(message, now, clock.dt) else { continue };
         let (Some(from), Some(to)) = (place_of(message.from), place_of(message.to)) else { continue };
-        let tint = tints::lighter(message.from.team);
+        let tint = colours::team_text(message.from.team);
         let radius = if is_of_a_swap(message.kind) { DOT.1 } else { DOT.0 };
         match look {
             Look::Travels(share) => {
@@ -109,7 +109,7 @@ pub(super) fn draw(
 }
 
 fn dot(pens: &mut Pens, at: Vec2, radius: f32, tint: Color) {
-    for ring in strokes::rings(radius, radius / 2.0) {
+    for ring in outlines::rings(radius, radius / 2.0) {
         pens.strong.circle_2d(at, ring, tint).resolution(12);
     }
 }

@@ -1,6 +1,6 @@
 //! What the inspector draws on the pitch, around the selected robot and between team mates, in metres of the pitch frame.
 //!
-//! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::tints`].
+//! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::colours`].
 
 mod beliefs;
 mod bookings;
@@ -14,11 +14,10 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::EguiPrimaryContextPass;
 
-use super::subject::Scene;
-use crate::app::view::layout::PanelSystems;
-use crate::app::view::shown::Shown;
-use crate::app::view::state::{Overlays, Screen};
-use crate::app::view::walkers::Gaze;
+use super::subject::InspectedMatch;
+use crate::app::view::picture::visuals::BodyVisual;
+use crate::app::view::picture::walkers::HeadVisual;
+use crate::app::view::state::{Overlay, Overlays, PanelSystems, Screen};
 use crate::geometry::Pose;
 
 pub(super) fn plugin(app: &mut App) {
@@ -67,8 +66,8 @@ pub(super) struct Pens<'w, 's> {
 
 fn draw(
     overlays: Res<Overlays>,
-    scene: Scene,
-    (shown, gazes): (Query<&Shown>, Query<(&Shown, &Gaze)>),
+    scene: InspectedMatch,
+    (shown, gazes): (Query<&BodyVisual>, Query<(&BodyVisual, &HeadVisual)>),
     camera: Query<(&Camera, &GlobalTransform), With<Camera2d>>,
     mut pens: Pens,
 ) {
@@ -78,23 +77,23 @@ fn draw(
     let Some(robot) = scene.looked_with(placed) else { return };
     let pixel = pixel(&camera);
     let anchor = robot.ends.turn_pose(robot.pose);
-    if overlays.zones {
+    if overlays.shows(Overlay::Zones) {
         zones::draw(&mut pens, &robot, scene.pitch.half_size());
     }
     if robot.of.off_pitch {
         return;
     }
-    if overlays.field_of_view {
+    if overlays.shows(Overlay::FieldOfView) {
         let pan =
             gazes.iter().find(|(shown, _)| shown.body == robot.of.entity).map_or(0.0, |(_, gaze)| gaze.pan);
         let from = Pose { heading: anchor.heading + pan, ..anchor };
         sight::draw_field_of_view(&mut pens, &robot.of.robot.sensing.eyes, from, pixel);
     }
-    if overlays.beliefs {
+    if overlays.shows(Overlay::Beliefs) {
         beliefs::draw(&mut pens, &robot, pixel);
         sight::draw_frame(&mut pens, &robot, pixel);
     }
-    if overlays.vectors {
+    if overlays.shows(Overlay::Vectors) {
         vectors::draw(&mut pens, &robot, anchor.position);
     }
 }

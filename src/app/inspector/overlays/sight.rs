@@ -3,8 +3,9 @@
 use bevy::prelude::*;
 
 use super::Pens;
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::{strokes, tints};
+use crate::app::inspector::outlines;
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::view::colours;
 use crate::geometry::{Pose, unit};
 use crate::robot::Eyes;
 
@@ -12,30 +13,30 @@ use crate::robot::Eyes;
 pub(super) fn draw_field_of_view(pens: &mut Pens, eyes: &Eyes, from: Pose, pixel: f32) {
     let Eyes::Real { camera, .. } = eyes else { return };
     let opening = camera.field_of_view.to_radians();
-    let tint = tints::SENSED.with_alpha(0.4);
-    let ball = strokes::wedge(from.position, from.heading, opening, camera.ball_range);
+    let tint = colours::SENSED.with_alpha(0.4);
+    let ball = outlines::wedge(from.position, from.heading, opening, camera.ball_range);
     pens.fine.linestrip_2d(ball, tint);
     let (right, left) = (from.heading - opening / 2.0, from.heading + opening / 2.0);
     let dash = 7.0 * pixel;
-    for (a, b) in strokes::dashed_arc(from.position, camera.robot_range, (right, left), dash) {
+    for (a, b) in outlines::dashed_arc(from.position, camera.robot_range, (right, left), dash) {
         pens.fine.line_2d(a, b, tint);
     }
     for edge in [right, left] {
         let at = |range: f32| from.position + range * unit(edge);
-        for (a, b) in strokes::dashed_line(at(camera.ball_range), at(camera.robot_range), dash) {
+        for (a, b) in outlines::dashed_line(at(camera.ball_range), at(camera.robot_range), dash) {
             pens.fine.line_2d(a, b, tint);
         }
     }
 }
 
 /// White dots where the things of the newest frame were, if the robot was where its localisation said.
-pub(super) fn draw_frame(pens: &mut Pens, robot: &Looked, pixel: f32) {
+pub(super) fn draw_frame(pens: &mut Pens, robot: &SelectedRobot, pixel: f32) {
     let Some(frame) = &robot.of.percepts.frame else { return };
     let robots = frame.robots.iter().map(|(_, sighting)| (*sighting, 4.0));
     for (sighting, reach) in frame.ball.map(|ball| (ball, 4.0)).into_iter().chain(robots) {
         let at = robot.ends.turn(sighting.placed(frame.fix));
-        for radius in strokes::rings(reach, 2.5) {
-            pens.strong.circle_2d(at, radius * pixel, tints::SENSED).resolution(16);
+        for radius in outlines::rings(reach, 2.5) {
+            pens.strong.circle_2d(at, radius * pixel, colours::SENSED).resolution(16);
         }
     }
 }

@@ -5,11 +5,11 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
 use super::Pens;
-use crate::app::inspector::{strokes, tints};
+use crate::app::inspector::outlines;
 use crate::app::view::colours;
-use crate::app::view::robots::reach;
-use crate::app::view::shown::Shown;
-use crate::app::view::state::Overlays;
+use crate::app::view::picture::robots::reach;
+use crate::app::view::picture::visuals::BodyVisual;
+use crate::app::view::state::{Overlay, Overlays};
 use crate::geometry::Attacking;
 use crate::ids::RobotId;
 use crate::mind::teamwork::{Swapping, TeamPicture};
@@ -53,11 +53,11 @@ fn supported(activity: &str) -> Option<Supported> {
 pub(super) fn draw(
     overlays: Res<Overlays>,
     (state, strategies, pitch): (Res<MatchState>, Res<Strategies>, Res<Pitch>),
-    shown: Query<&Shown>,
+    shown: Query<&BodyVisual>,
     mates: Query<Mate>,
     mut pens: Pens,
 ) {
-    if !overlays.teamwork {
+    if !overlays.shows(Overlay::Teamwork) {
         return;
     }
     let place_of = |robot: RobotId| {
@@ -85,7 +85,7 @@ pub(super) fn draw(
             None => None,
         };
         if let Some(goal) = goal {
-            draw_support(&mut pens, (at, goal), CLAIM * reach, tints::lighter(mate.id.team));
+            draw_support(&mut pens, (at, goal), CLAIM * reach, colours::team_text(mate.id.team));
         }
     }
 }
@@ -101,7 +101,7 @@ fn draw_support(pens: &mut Pens, (from, to): (Vec2, Vec2), off: f32, tint: Color
     if (to - from).dot(way) <= DASH {
         return;
     }
-    for (a, b) in strokes::dashed_line(from, to, DASH) {
+    for (a, b) in outlines::dashed_line(from, to, DASH) {
         pens.strong.line_2d(a, b, tint);
     }
     for side in [1.0, -1.0] {

@@ -3,9 +3,9 @@
 use bevy::prelude::*;
 
 use super::Pens;
-use crate::app::inspector::kinds::Kind;
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::tints;
+use crate::app::inspector::schema_kinds::SchemaKind;
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::view::colours;
 
 /// Length on the pitch of a vector of length 1, m.
 const SCALE: f32 = 0.8;
@@ -13,13 +13,13 @@ const SCALE: f32 = 0.8;
 const LONGEST: f32 = 1.6;
 const SHORTEST: f32 = 0.02;
 
-pub(super) fn draw(pens: &mut Pens, robot: &Looked, from: Vec2) {
+pub(super) fn draw(pens: &mut Pens, robot: &SelectedRobot, from: Vec2) {
     let Some((_, assemblage)) = robot.assemblage() else { return };
     let contributions = robot.of.contributions;
     // The sum first and broad, so that a schema that points the same way is seen upon it.
-    arrow(&mut pens.broad, from, robot.ends.turn(contributions.sum), tints::SUM);
+    arrow(&mut pens.broad, from, robot.ends.turn(contributions.sum), colours::SUM);
     for (term, vector) in assemblage.terms.iter().zip(&contributions.vectors) {
-        let tint = tints::kind(Kind::of(&term.schema));
+        let tint = SchemaKind::of(&term.schema).colour();
         arrow(&mut pens.strong, from, robot.ends.turn(*vector * term.weight), tint);
     }
 }

@@ -3,16 +3,17 @@
 use bevy::prelude::*;
 
 use super::Pens;
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::{strokes, tints};
+use crate::app::inspector::outlines;
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::view::colours;
 use crate::strategy::Part;
 
 /// From the middle of a homebase's sign to its tips, m.
 const REACH: f32 = 0.13;
 
-pub(super) fn draw(pens: &mut Pens, robot: &Looked, half_pitch: Vec2) {
+pub(super) fn draw(pens: &mut Pens, robot: &SelectedRobot, half_pitch: Vec2) {
     let activity = robot.of.activity;
-    let tint = tints::team(robot.id.team);
+    let tint = colours::team(robot.id.team);
     let zone = activity.danger_zone(robot.strategy);
     // A finger's breadth inside the walls, so that the line is seen.
     let edge = half_pitch - 0.03;
@@ -22,9 +23,9 @@ pub(super) fn draw(pens: &mut Pens, robot: &Looked, half_pitch: Vec2) {
     let Some(Part::Plays(play)) = spec.map(|role| &role.part) else { return };
     for home in &play.homebases {
         let at = robot.ends.turn(*home);
-        pens.strong.lineloop_2d(strokes::diamond(at, REACH), tint);
+        pens.strong.lineloop_2d(outlines::diamond(at, REACH), tint);
         if *home == activity.homebase {
-            pens.strong.lineloop_2d(strokes::diamond(at, REACH / 2.0), tint);
+            pens.strong.lineloop_2d(outlines::diamond(at, REACH / 2.0), tint);
         }
     }
 }

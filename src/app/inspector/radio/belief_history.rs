@@ -2,8 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::app::view::driver::AfterTick;
-use crate::app::view::session::MatchBegun;
+use crate::app::view::state::{AfterTick, MatchBegun};
 use crate::clock::Clock;
 use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::teamwork::Booking;

@@ -7,9 +7,8 @@ use super::belief_history::Span;
 use super::chart::{LANE, NAMES, TIMES, paint_times, show_spans};
 use super::layout::Axes;
 use super::words::moment;
-use super::{Heard, RadioView};
-use crate::app::inspector::{figures, tints};
-use crate::app::view::colours;
+use super::{RadioData, RadioView};
+use crate::app::view::{colours, format};
 use crate::clock::Clock;
 use crate::game::record::{BookingFigures, Span as Stretch};
 use crate::ids::{RobotId, Team};
@@ -24,7 +23,7 @@ pub fn show(
     ui: &mut egui::Ui,
     team: Team,
     robots: &[(RobotId, Condition)],
-    heard: &Heard,
+    heard: &RadioData,
     view: &mut RadioView,
 ) {
     if !heard.books(team) {
@@ -49,15 +48,19 @@ pub fn show(
         lanes: robots.len(),
     };
     let painter = ui.painter_at(chart);
-    painter.rect_filled(chart, 3.0, tints::egui(colours::SUNKEN));
+    painter.rect_filled(chart, 3.0, colours::egui(colours::SUNKEN));
     paint_times(ui.painter(), &axes, heard.clock.dt);
     for (lane, (robot, condition)) in robots.iter().enumerate() {
         let at = pos2(rect.left() + 2.0, axes.y(lane));
-        let colour = tints::egui(colours::team_text(robot.team));
+        let colour = colours::egui(colours::team_text(robot.team));
         let colour = if condition.crashed { colour.gamma_multiply(0.5) } else { colour };
         let font = egui::FontId::proportional(13.0);
         ui.painter().text(at, Align2::LEFT_CENTER, format!("{robot} believes"), font, colour);
-        painter.hline(chart.x_range(), axes.y(lane), (1.0, tints::egui(colours::QUIET).gamma_multiply(0.3)));
+        painter.hline(
+            chart.x_range(),
+            axes.y(lane),
+            (1.0, colours::egui(colours::QUIET).gamma_multiply(0.3)),
+        );
     }
     let told = paint_beliefs(&painter, &axes, robots, heard, response.hover_pos());
     if let Some(told) = told {
@@ -70,26 +73,26 @@ fn paint_beliefs(
     painter: &egui::Painter,
     axes: &Axes,
     robots: &[(RobotId, Condition)],
-    heard: &Heard,
+    heard: &RadioData,
     pointer: Option<Pos2>,
 ) -> Option<String> {
     let mut told = None;
     for span in heard.beliefs.spans() {
         let Some(lane) = robots.iter().position(|(robot, _)| *robot == span.robot) else { continue };
         let Some(bar) = bar_of(span, axes, lane) else { continue };
-        let colour = tints::egui(tints::number(span.belief.booker));
+        let colour = colours::egui(colours::number(span.belief.booker));
         painter.rect_filled(bar, 2.0, colour);
         let seen = bar.intersect(axes.rect);
         if seen.width() > NUMBERED && span.belief.goes {
             let font = egui::FontId::proportional(13.0);
-            let ink = tints::egui(colours::ROBOT);
+            let ink = colours::egui(colours::ROBOT);
             painter.text(seen.center(), Align2::CENTER_CENTER, span.belief.booker, font, ink);
         }
         if pointer.is_some_and(|pointer| seen.expand2(vec2(1.0, 3.0)).contains(pointer)) {
             painter.rect_stroke(
                 bar,
                 2.0,
-                Stroke::new(1.5, tints::egui(colours::PILOT)),
+                Stroke::new(1.5, colours::egui(colours::PILOT)),
                 egui::StrokeKind::Outside,
             );
             told = Some(story(span, &heard.clock));
@@ -120,7 +123,7 @@ fn story(span: &Span, clock: &Clock) -> String {
         (false, false) => format!("{robot} believes that {} has booked the ball", belief.booker),
     };
     let lasted = match until {
-        Some(until) => format!("for {}", figures::seconds(figures::span(from, until, clock.dt))),
+        Some(until) => format!("for {}", format::seconds(format::span(from, until, clock.dt))),
         None => "and still so".into(),
     };
     format!("{head}\nfrom {}, {lasted}", moment(from, clock))
@@ -131,9 +134,9 @@ fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Condition)]) {
     ui.weak("booker");
     for (robot, _) in robots {
         let (rect, response) = ui.allocate_exact_size(vec2(18.0, 16.0), egui::Sense::hover());
-        ui.painter().rect_filled(rect, 2.0, tints::egui(tints::number(robot.number)));
+        ui.painter().rect_filled(rect, 2.0, colours::egui(colours::number(robot.number)));
         let font = egui::FontId::proportional(13.0);
-        let ink = tints::egui(colours::ROBOT);
+        let ink = colours::egui(colours::ROBOT);
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, robot.number, font, ink);
         response.on_hover_text(format!(
             "{robot} has booked the ball. Broad: it goes there; narrow: who leaves it to it"
@@ -145,8 +148,8 @@ fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Condition)]) {
 fn show_figures(ui: &mut egui::Ui, booked: &BookingFigures) {
     let stretch = |ui: &mut egui::Ui, name: &str, stretch: Stretch, tip: &str| {
         ui.weak(name);
-        let told = figures::seconds(stretch.total as f32);
-        let longest = figures::seconds(stretch.longest as f32);
+        let told = format::seconds(stretch.total as f32);
+        let longest = format::seconds(stretch.longest as f32);
         ui.label(RichText::new(told)).on_hover_text(format!("{tip}. At most {longest} at a stretch"));
     };
     stretch(

@@ -6,9 +6,7 @@ use bevy_egui::egui::{self, Align2, Color32, Pos2, Rect, RichText, Stroke, pos2,
 use super::filter::is_of_a_swap;
 use super::layout::{Arrow, Axes, End, Labels};
 use super::locks::Hold;
-use super::words;
-use super::{Heard, RadioView, Span};
-use crate::app::inspector::tints;
+use super::{ChartSpan, RadioData, RadioView, words};
 use crate::app::view::colours;
 use crate::comms::messages::MessageKind;
 use crate::comms::radio::Transmission;
@@ -29,7 +27,7 @@ const CROWDED: usize = 150;
 const MANY: usize = 700;
 const TEXT: f32 = 13.0;
 
-pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, view: &mut RadioView) {
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, view: &mut RadioView) {
     show_filters(ui, view);
     let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
     let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
@@ -43,11 +41,11 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, v
     };
     show_names(ui, rect, &axes, robots, view);
     let painter = ui.painter_at(chart);
-    painter.rect_filled(chart, 3.0, tints::egui(colours::SUNKEN));
+    painter.rect_filled(chart, 3.0, colours::egui(colours::SUNKEN));
     paint_times(ui.painter(), &axes, heard.clock.dt);
     for (lane, robot) in lanes.iter().enumerate() {
         let shown = view.filter.shows(*robot);
-        let colour = tints::egui(colours::QUIET).gamma_multiply(if shown { 0.6 } else { 0.2 });
+        let colour = colours::egui(colours::QUIET).gamma_multiply(if shown { 0.6 } else { 0.2 });
         painter.hline(chart.x_range(), axes.y(lane), (1.0, colour));
     }
     let told_of_lock = paint_locks(&painter, &axes, &lanes, heard, response.hover_pos());
@@ -74,7 +72,7 @@ fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
 /// The time that the charts show.
 pub fn show_spans(ui: &mut egui::Ui, view: &mut RadioView) {
     ui.weak("Last");
-    for span in Span::ALL {
+    for span in ChartSpan::ALL {
         let tip = "The time from the left edge to the right one";
         ui.selectable_value(&mut view.span, span, format!("{} s", span.seconds())).on_hover_text(tip);
     }
@@ -87,14 +85,14 @@ fn show_key(ui: &mut egui::Ui) {
         paint(ui.painter(), rect);
         ui.weak(words);
     };
-    let late = Stroke::new(1.5, tints::egui(colours::TEXT));
-    sample("lost", &|painter, rect| cross(painter, rect.center(), tints::egui(colours::PENALTY)));
+    let late = Stroke::new(1.5, colours::egui(colours::TEXT));
+    sample("lost", &|painter, rect| cross(painter, rect.center(), colours::egui(colours::PENALTY)));
     sample("late", &|painter, rect| {
         let ends = [rect.left_center(), rect.right_center()];
         painter.extend(egui::Shape::dashed_line(&ends, late, 4.0, 3.0));
     });
     sample("locked", &|painter, rect| {
-        painter.rect_filled(rect.shrink2(vec2(0.0, 3.5)), 2.0, tints::egui(colours::LOCK));
+        painter.rect_filled(rect.shrink2(vec2(0.0, 3.5)), 2.0, colours::egui(colours::LOCK));
     });
 }
 
@@ -108,7 +106,7 @@ fn show_names(
     for (lane, (robot, condition)) in robots.iter().enumerate() {
         let place = Rect::from_center_size(pos2(rect.left() + NAMES / 2.0, axes.y(lane)), vec2(NAMES, 20.0));
         let mut shown = view.filter.shows(*robot);
-        let mut name = RichText::new(robot.to_string()).color(tints::egui(colours::team_text(robot.team)));
+        let mut name = RichText::new(robot.to_string()).color(colours::egui(colours::team_text(robot.team)));
         if condition.crashed {
             name = name.strikethrough();
         }
@@ -122,7 +120,7 @@ fn show_names(
 
 /// Writes the times below the lanes, with a faint line through them at each.
 pub fn paint_times(painter: &egui::Painter, axes: &Axes, dt: f32) {
-    let quiet = tints::egui(colours::QUIET);
+    let quiet = colours::egui(colours::QUIET);
     let (marks, _) = axes.marks(dt);
     for mark in marks {
         let x = axes.x(mark as f64);
@@ -143,10 +141,10 @@ fn paint_locks(
     painter: &egui::Painter,
     axes: &Axes,
     lanes: &[RobotId],
-    heard: &Heard,
+    heard: &RadioData,
     pointer: Option<Pos2>,
 ) -> Option<String> {
-    let amber = tints::egui(colours::LOCK);
+    let amber = colours::egui(colours::LOCK);
     let mut told = None;
     for span in heard.locks.spans() {
         let Some(lane) = lanes.iter().position(|robot| *robot == span.robot) else { continue };
@@ -173,7 +171,7 @@ fn paint_messages(
     painter: &egui::Painter,
     axes: &Axes,
     lanes: &[RobotId],
-    heard: &Heard,
+    heard: &RadioData,
     view: &RadioView,
     pointer: Option<Pos2>,
 ) -> Option<String> {
@@ -194,15 +192,15 @@ fn paint_messages(
         paint_labels(painter, axes, &arrows);
     }
     let (_, message, arrow) = pointed?;
-    painter.line_segment([arrow.from, arrow.to], (3.0, tints::egui(colours::PILOT)));
+    painter.line_segment([arrow.from, arrow.to], (3.0, colours::egui(colours::PILOT)));
     Some(words::story(message, &heard.clock))
 }
 
 fn colour(message: &Transmission, end: End) -> Color32 {
     match end {
-        End::Lost(_) => tints::egui(colours::LOST),
-        _ if is_of_a_swap(message.kind) => tints::egui(colours::PILOT),
-        _ => tints::egui(colours::team_text(message.from.team)).gamma_multiply(0.75),
+        End::Lost(_) => colours::egui(colours::LOST),
+        _ if is_of_a_swap(message.kind) => colours::egui(colours::PILOT),
+        _ => colours::egui(colours::team_text(message.from.team)).gamma_multiply(0.75),
     }
 }
 
@@ -221,7 +219,7 @@ fn paint_arrow(painter: &egui::Painter, message: &Transmission, arrow: &Arrow, p
         End::OnItsWay => {
             painter.circle_filled(arrow.to, 2.5, colour);
         }
-        End::Lost(_) => cross(painter, arrow.to, tints::egui(colours::PENALTY)),
+        End::Lost(_) => cross(painter, arrow.to, colours::egui(colours::PENALTY)),
     }
 }
 

@@ -5,29 +5,25 @@ mod belief_history;
 mod bookings;
 mod chart;
 mod filter;
-mod head;
 mod layout;
 mod locks;
 mod robots;
 #[cfg(test)]
 mod samples;
+mod toolbar;
 mod words;
 
+use belief_history::BeliefHistory;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
-
-use belief_history::BeliefHistory;
-pub use filter::{Filter, is_of_a_swap};
 use locks::LockHistory;
 
-pub use layout::way_of_a_lost_one;
-
-use crate::app::view::actions::Action;
-use crate::app::view::keys::Keyboard;
-use crate::app::view::layout::{Edge, FreeArea, PanelSystems, SizedPanel};
-use crate::app::view::settings::PanelSizes;
-use crate::app::view::state::{Overlay, Overlays, Pace, Screen, Selected};
+use crate::app::view::input::keyboard::Keyboard;
+use crate::app::view::interface::dock::SizedPanel;
+use crate::app::view::state::{
+    Action, Edge, FreeArea, Overlay, Overlays, PanelSizes, PanelSystems, Playback, Screen, Selected, shows,
+};
 use crate::clock::Clock;
 use crate::comms::radio::{Conditions, RadioLog, Traffic};
 use crate::game::record::Record;
@@ -36,11 +32,13 @@ use crate::ids::{RobotId, Team};
 use crate::robot::{Condition, Robot};
 use crate::strategy::Strategies;
 
+pub use filter::{Filter, is_of_a_swap};
+pub use layout::way_of_a_lost_one;
+
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<RadioView>().add_plugins((locks::plugin, belief_history::plugin)).add_systems(
         EguiPrimaryContextPass,
-        dock.in_set(PanelSystems::Low)
-            .run_if(in_state(Screen::Match).and_then(|overlays: Res<Overlays>| overlays.radio)),
+        dock.in_set(PanelSystems::Low).run_if(in_state(Screen::Match).and_then(shows(Overlay::Radio))),
     );
 }
 
@@ -48,15 +46,15 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(Resource, Clone, Debug, Default)]
 pub struct RadioView {
     pub filter: Filter,
-    span: Span,
-    page: Page,
+    span: ChartSpan,
+    page: RadioPage,
     /// The team that is looked at while no robot is selected: that of the last one.
     team: Option<Team>,
 }
 
 /// The time that the chart shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Span {
+enum ChartSpan {
     Two,
     #[default]
     Ten,
@@ -64,22 +62,22 @@ enum Span {
     Sixty,
 }
 
-impl Span {
-    const ALL: [Span; 4] = [Span::Two, Span::Ten, Span::Thirty, Span::Sixty];
+impl ChartSpan {
+    const ALL: [ChartSpan; 4] = [ChartSpan::Two, ChartSpan::Ten, ChartSpan::Thirty, ChartSpan::Sixty];
 
     fn seconds(self) -> u16 {
         match self {
-            Span::Two => 2,
-            Span::Ten => 10,
-            Span::Thirty => 30,
-            Span::Sixty => 60,
+            ChartSpan::Two => 2,
+            ChartSpan::Ten => 10,
+            ChartSpan::Thirty => 30,
+            ChartSpan::Sixty => 60,
         }
     }
 }
 
 /// What the panel shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Page {
+enum RadioPage {
     #[default]
     Messages,
     Bookings,
@@ -88,9 +86,9 @@ enum Page {
 
 /// What there is to see of the radio.
 #[derive(SystemParam)]
-struct Heard<'w, 's> {
+struct RadioData<'w, 's> {
     clock: Res<'w, Clock>,
-    pace: Res<'w, Pace>,
+    pace: Res<'w, Playback>,
     log: Res<'w, RadioLog>,
     traffic: Res<'w, Traffic>,
     conditions: Res<'w, Conditions>,
@@ -102,7 +100,7 @@ struct Heard<'w, 's> {
     robots: Query<'w, 's, (&'static RobotId, &'static Robot)>,
 }
 
-impl Heard<'_, '_> {
+impl RadioData<'_, '_> {
     /// Whether a team books the ball.
     fn books(&self, team: Team) -> bool {
         self.strategies.of(team).teamwork.ball_booking.is_some()
@@ -118,12 +116,12 @@ impl Heard<'_, '_> {
 }
 
 /// What the panel asks for, and what waits for the next tick.
-struct Desk<'a> {
+struct RadioActions<'a> {
     requests: &'a mut Requests,
     asked: Vec<Request>,
 }
 
-impl Desk<'_> {
+impl RadioActions<'_> {
     /// The newest value among the requests that wait, or the one in force.
     fn shown<T>(&self, in_force: T, of: impl Fn(&Request) -> Option<T>) -> T {
         self.requests.iter().filter_map(of).last().unwrap_or(in_force)
@@ -142,7 +140,7 @@ const WIDTH: f32 = 600.0;
 fn dock(
     mut contexts: EguiContexts,
     (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
-    heard: Heard,
+    heard: RadioData,
     (mut view, mut requests): (ResMut<RadioView>, ResMut<Requests>),
     (mut sizes, keyboard): (ResMut<PanelSizes>, Res<Keyboard>),
 ) -> Result {
@@ -150,7 +148,7 @@ fn dock(
     let team = heard.selected.0.map(|robot| robot.team).or(view.team).unwrap_or(Team::Home);
     view.team = Some(team);
     let robots = heard.team(team);
-    let mut desk = Desk { requests: &mut requests, asked: Vec::new() };
+    let mut desk = RadioActions { requests: &mut requests, asked: Vec::new() };
     let panel = SizedPanel {
         id: "radio",
         edge: Edge::Bottom,
@@ -165,15 +163,15 @@ fn dock(
             .show(ui, |ui| {
                 let tip = keyboard.tip_that_says("Close the radio's panel", Action::Switch(Overlay::Radio));
                 let closed = super::panel::with_close_button(ui, &tip, |ui| {
-                    head::show(ui, team, &heard, &mut view, &mut desk);
+                    toolbar::show(ui, team, &heard, &mut view, &mut desk);
                 });
                 ui.separator();
                 egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
                     ui.set_min_width(WIDTH);
                     match view.page {
-                        Page::Messages => chart::show(ui, &robots, &heard, &mut view),
-                        Page::Bookings => bookings::show(ui, team, &robots, &heard, &mut view),
-                        Page::Robots => robots::show(ui, &robots, &heard, &mut desk),
+                        RadioPage::Messages => chart::show(ui, &robots, &heard, &mut view),
+                        RadioPage::Bookings => bookings::show(ui, team, &robots, &heard, &mut view),
+                        RadioPage::Robots => robots::show(ui, &robots, &heard, &mut desk),
                     }
                 });
                 closed
@@ -184,7 +182,7 @@ fn dock(
         requests.ask(request);
     }
     if closed == Some(true) {
-        overlays.radio = false;
+        overlays.set(Overlay::Radio, false);
     }
     Ok(())
 }

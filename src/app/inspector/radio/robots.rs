@@ -2,8 +2,7 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::{Desk, Heard};
-use crate::app::inspector::tints;
+use super::{RadioActions, RadioData};
 use crate::app::view::colours;
 use crate::comms::radio::{LinkCounters, Loss};
 use crate::game::requests::{Request, Treatment, Weather};
@@ -23,7 +22,7 @@ const FIGURES: [(&str, &str); 6] = [
     ("heard", "Messages that it heard"),
 ];
 
-pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, desk: &mut Desk) {
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, desk: &mut RadioActions) {
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("robots on the radio").num_columns(4).spacing([12.0, 5.0]).show(ui, |ui| {
             ui.weak("robot");
@@ -43,8 +42,14 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &Heard, d
     });
 }
 
-fn show_robot(ui: &mut egui::Ui, robot: RobotId, condition: Condition, heard: &Heard, desk: &mut Desk) {
-    let name = RichText::new(robot.to_string()).color(tints::egui(colours::team_text(robot.team)));
+fn show_robot(
+    ui: &mut egui::Ui,
+    robot: RobotId,
+    condition: Condition,
+    heard: &RadioData,
+    desk: &mut RadioActions,
+) {
+    let name = RichText::new(robot.to_string()).color(colours::egui(colours::team_text(robot.team)));
     ui.label(name);
     let sent = heard.traffic.sent_by(robot);
     ui.horizontal(|ui| {
@@ -81,7 +86,7 @@ fn show_robot(ui: &mut egui::Ui, robot: RobotId, condition: Condition, heard: &H
     });
 }
 
-fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, desk: &mut Desk) {
+fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, desk: &mut RadioActions) {
     for (ailment, name, tip) in [
         (Ailment::Crashed, "Crash", "Switches its computer off: it stands still, silent and deaf"),
         (Ailment::Frozen, "Freeze", "Switches its wheels off; it goes on thinking and talking"),
@@ -100,7 +105,7 @@ fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, desk: 
     }
 }
 
-fn show_cut_off(ui: &mut egui::Ui, robot: RobotId, in_force: bool, desk: &mut Desk) {
+fn show_cut_off(ui: &mut egui::Ui, robot: RobotId, in_force: bool, desk: &mut RadioActions) {
     let cut_off = desk.shown(in_force, |request| match request {
         Request::Air(Weather::CutOff(of)) if *of == robot => Some(true),
         Request::Air(Weather::Reconnect(of)) if *of == robot => Some(false),

@@ -1,7 +1,7 @@
 //! Messages and spans in words, for labels and tooltips.
 
 use super::locks::{Hold, Span};
-use crate::app::inspector::figures;
+use crate::app::view::format;
 use crate::clock::Clock;
 use crate::comms::radio::{Outcome, Transmission};
 use crate::ids::RobotId;
@@ -22,7 +22,7 @@ pub fn story(message: &Transmission, clock: &Clock) -> String {
     let doubled = if message.doubled { "\na second copy was under way too" } else { "" };
     let outcome = match message.outcome {
         Outcome::Arrived(tick) => {
-            let took = 1000.0 * figures::span(message.sent, tick, clock.dt);
+            let took = 1000.0 * format::span(message.sent, tick, clock.dt);
             format!("arrived after {took:.0} ms{late}")
         }
         Outcome::InFlight(_) => format!("on its way{late}"),
@@ -41,7 +41,7 @@ pub fn story_of(span: &Span, clock: &Clock) -> String {
         Hold::Attempt { sequence } => format!("{} tries to swap roles, attempt {sequence}", span.robot),
     };
     let lasted = match span.until {
-        Some(until) => format!("for {:.0} ms", 1000.0 * figures::span(span.from, until, clock.dt)),
+        Some(until) => format!("for {:.0} ms", 1000.0 * format::span(span.from, until, clock.dt)),
         None => "and still so".into(),
     };
     format!("{head}\nfrom {}, {lasted}", moment(span.from, clock))

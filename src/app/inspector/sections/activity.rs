@@ -2,18 +2,19 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::{figures, table};
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::inspector::table;
+use crate::app::view::format;
 use crate::strategy::TransitionTaken;
 
 /// Transitions that are shown, newest first.
 const SHOWN: usize = 5;
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
     let activity = robot.of.activity;
     let machine = robot.strategy.machines.get(activity.machine(robot.strategy));
-    let state = robot.activity().map_or(figures::UNKNOWN, |state| &state.name);
-    let since = figures::seconds(robot.since(activity.since));
+    let state = robot.activity().map_or(format::UNKNOWN, |state| &state.name);
+    let since = format::seconds(robot.since(activity.since));
     ui.horizontal(|ui| {
         ui.label(RichText::new(state).strong().size(15.0));
         ui.label(format!("for {since}"));
@@ -25,7 +26,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
         ui.weak("no transition yet");
     }
     for taken in activity.history.iter().rev().take(SHOWN) {
-        let ago = figures::seconds(robot.since(taken.tick));
+        let ago = format::seconds(robot.since(taken.tick));
         table::line(ui, &format!("{ago} ago"), transition(ui, taken));
     }
 }

@@ -3,10 +3,11 @@
 use bevy::prelude::*;
 use bevy_egui::egui;
 
-use crate::app::inspector::figures::{UNKNOWN, coordinates, degrees, fixed, metres, seconds, span};
-use crate::app::inspector::matching::{Pair, error, pair};
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::{table, tints};
+use crate::app::inspector::matching::{BeliefPair, error, pair};
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::inspector::table;
+use crate::app::view::colours;
+use crate::app::view::format::{UNKNOWN, coordinates, degrees, fixed, metres, seconds, span};
 use crate::geometry::wrap_angle;
 use crate::ids::Team;
 use crate::protocol::b3p::B3p;
@@ -14,7 +15,7 @@ use crate::protocol::b3p::B3p;
 const FRAME: &str =
     "Metres in the team frame: x towards the opponents' goal, y to the left, from the centre spot";
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
     table::heading(ui, &["believed x", "y", "true x", "y", "off by", "age, s"]);
     own_pose(ui, robot);
     ball(ui, robot);
@@ -66,7 +67,7 @@ fn compare(
     table::row(ui, name, &[&bx, &by, &tx, &ty, &off, &age])
 }
 
-fn own_pose(ui: &mut egui::Ui, robot: &Looked) {
+fn own_pose(ui: &mut egui::Ui, robot: &SelectedRobot) {
     let (believed, truth) = (robot.of.model.pose, robot.pose);
     compare(ui, "itself, m", (Some(believed.position), Some(truth.position)), None).on_hover_text(FRAME);
     let off = wrap_angle(believed.heading - truth.heading).abs();
@@ -75,7 +76,7 @@ fn own_pose(ui: &mut egui::Ui, robot: &Looked) {
         .on_hover_text("0 towards the opponents' goal, positive to the left");
 }
 
-fn ball(ui: &mut egui::Ui, robot: &Looked) {
+fn ball(ui: &mut egui::Ui, robot: &SelectedRobot) {
     let (believed, truth) = (robot.of.model.ball, robot.ball);
     let age = believed.map(|ball| robot.since(ball.seen));
     let places = (believed.map(|ball| ball.position), truth.map(|ball| ball.position));
@@ -84,7 +85,7 @@ fn ball(ui: &mut egui::Ui, robot: &Looked) {
     compare(ui, "ball, m/s", velocities, None).on_hover_text("The ball's velocity in the team frame");
 }
 
-fn other(ui: &mut egui::Ui, robot: &Looked, pair: Pair) {
+fn other(ui: &mut egui::Ui, robot: &SelectedRobot, pair: BeliefPair) {
     let name = match (pair.truth, pair.belief) {
         (Some((id, _)), _) => named(ui, id.to_string(), id.team),
         (None, Some(belief)) => named(ui, format!("{} ?", belief.team), belief.team),
@@ -93,8 +94,8 @@ fn other(ui: &mut egui::Ui, robot: &Looked, pair: Pair) {
     let age = pair.belief.map(|belief| robot.since(belief.seen));
     let row = compare(ui, name, pair.places(), age);
     match pair {
-        Pair { truth: None, .. } => row.on_hover_text("Believed to be there, but nobody is"),
-        Pair { belief: None, .. } => row.on_hover_text("The robot knows nothing of it"),
+        BeliefPair { truth: None, .. } => row.on_hover_text("Believed to be there, but nobody is"),
+        BeliefPair { belief: None, .. } => row.on_hover_text("The robot knows nothing of it"),
         _ => row.on_hover_text(FRAME),
     };
 }
@@ -102,7 +103,7 @@ fn other(ui: &mut egui::Ui, robot: &Looked, pair: Pair) {
 fn named(ui: &egui::Ui, name: String, team: Team) -> egui::WidgetText {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let mut job = egui::text::LayoutJob::default();
-    job.append("■ ", 0.0, egui::TextFormat::simple(font.clone(), tints::egui(tints::team(team))));
+    job.append("■ ", 0.0, egui::TextFormat::simple(font.clone(), colours::egui(colours::team(team))));
     job.append(&name, 0.0, egui::TextFormat::simple(font, ui.visuals().text_color()));
     job.into()
 }

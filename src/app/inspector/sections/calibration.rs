@@ -2,10 +2,10 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::Desk;
-use crate::app::inspector::calibration::{KNOBS, Knob, Values};
-use crate::app::inspector::subject::Looked;
-use crate::app::inspector::tints;
+use super::PanelActions;
+use crate::app::inspector::calibration::{KNOBS, Knob, RobotValues};
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::view::colours;
 use crate::game::requests::{Calibration, Request, Treatment};
 
 /// Widths of what stands to the right of a value's name, in points.
@@ -14,13 +14,13 @@ const VALUE: f32 = 88.0;
 const RESET: f32 = 20.0;
 const ROW: f32 = 19.0;
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
     let (kind, sensing) = (&robot.of.robot.kind, &robot.of.robot.sensing);
     let mut values = match asked(desk, robot) {
-        Some(asked) => Values::of(&asked.kind, &asked.sensing),
-        None => Values::of(kind, sensing),
+        Some(asked) => RobotValues::of(&asked.kind, &asked.sensing),
+        None => RobotValues::of(kind, sensing),
     };
-    let file = desk.file.map(|team| Values::of(&team.kind, &team.sensing));
+    let file = desk.file.map(|team| RobotValues::of(&team.kind, &team.sensing));
     let mut file = file.unwrap_or_else(|| values.clone());
     let before = values.clone();
     ui.horizontal(|ui| {
@@ -50,7 +50,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
 }
 
 /// What was asked for this robot and waits for the next tick.
-fn asked<'a>(desk: &'a Desk, robot: &Looked) -> Option<&'a Calibration> {
+fn asked<'a>(desk: &'a PanelActions, robot: &SelectedRobot) -> Option<&'a Calibration> {
     let waiting = desk.requests.iter().filter_map(|request| match request {
         Request::Robot(id, Treatment::Recalibrate(calibration)) if *id == robot.id => Some(calibration),
         _ => None,
@@ -58,22 +58,22 @@ fn asked<'a>(desk: &'a Desk, robot: &Looked) -> Option<&'a Calibration> {
     waiting.last()
 }
 
-/// Values nearer than this share of a slider are the same.
+/// RobotValues nearer than this share of a slider are the same.
 const SAME: f32 = 1e-4;
 
-fn is_changed(knob: &Knob, values: &mut Values, file: &mut Values) -> bool {
+fn is_changed(knob: &Knob, values: &mut RobotValues, file: &mut RobotValues) -> bool {
     let pair = (knob.at)(values).zip((knob.at)(file));
     pair.is_some_and(|(value, filed)| (*value - *filed).abs() > SAME * (knob.range.1 - knob.range.0))
 }
 
 /// Puts a value back to that of the file.
-fn set(knob: &Knob, values: &mut Values, file: &mut Values) {
+fn set(knob: &Knob, values: &mut RobotValues, file: &mut RobotValues) {
     if let Some((value, filed)) = (knob.at)(values).zip((knob.at)(file)) {
         *value = *filed;
     }
 }
 
-fn show(ui: &mut egui::Ui, knob: &Knob, values: &mut Values, file: &mut Values) {
+fn show(ui: &mut egui::Ui, knob: &Knob, values: &mut RobotValues, file: &mut RobotValues) {
     let differs = is_changed(knob, values, file);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
@@ -110,7 +110,7 @@ fn show(ui: &mut egui::Ui, knob: &Knob, values: &mut Values, file: &mut Values) 
             .update_while_editing(false);
         ui.scope(|ui| {
             if differs {
-                ui.visuals_mut().override_text_color = Some(tints::egui(tints::CHANGED));
+                ui.visuals_mut().override_text_color = Some(colours::egui(colours::CHANGED));
             }
             ui.add_sized([VALUE, ROW], number).on_hover_text("Drag, or click to type");
         });
@@ -137,7 +137,7 @@ mod tests {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         let plan = MatchPlan::read(&assets, &Choice::default()).expect("the default match");
         let team = plan.team(Team::Home);
-        let mut file = Values::of(&team.kind, &team.sensing);
+        let mut file = RobotValues::of(&team.kind, &team.sensing);
         let mut values = file.clone();
         let knob = KNOBS.iter().find(|knob| knob.name == "top speed").expect("wheels have one");
         if let Some(value) = (knob.at)(&mut values) {

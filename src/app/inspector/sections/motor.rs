@@ -3,16 +3,17 @@
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
-use super::Desk;
-use crate::app::inspector::kinds::Kind;
-use crate::app::inspector::subject::Looked;
+use super::PanelActions;
+use crate::app::inspector::schema_kinds::SchemaKind;
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::inspector::table;
 use crate::app::inspector::weights::Place;
-use crate::app::inspector::{figures, table, tints};
+use crate::app::view::{colours, format};
 use crate::geometry::{Attacking, angle, wrap_angle};
 use crate::robot::{DriveCommand, SteeringIntent};
 use crate::strategy::{Combination, Term};
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
     match robot.assemblage() {
         Some((index, assemblage)) => {
             let how = match assemblage.combination {
@@ -49,15 +50,15 @@ fn schema(
     ui: &mut egui::Ui,
     (term, place, vector): (&Term, Place, Option<Vec2>),
     ends: Attacking,
-    desk: &mut Desk,
+    desk: &mut PanelActions,
 ) {
-    let kind = Kind::of(&term.schema);
+    let kind = SchemaKind::of(&term.schema);
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let fixed = ICON + 2.0 * FIGURE + SLIDER + VALUE + RESET + 3.0 * 4.0;
         let room = egui::vec2((ui.available_width() - fixed).max(40.0) + ICON + 2.0 * FIGURE, ROW);
         ui.allocate_ui(room, |ui| {
-            vector_row(ui, &term.name, vector.unwrap_or_default(), tints::kind(kind), ends)
+            vector_row(ui, &term.name, vector.unwrap_or_default(), kind.colour(), ends)
                 .on_hover_text(format!("{}: {}", term.name, kind.words()));
         });
         weight(ui, place, term.weight, desk);
@@ -72,21 +73,21 @@ fn vector_row(ui: &mut egui::Ui, name: &str, vector: Vec2, tint: Color, ends: At
     let painter = ui.painter();
     let centre = rect.left_center() + egui::vec2(ICON / 2.0 - 2.0, 0.0);
     if idle {
-        painter.circle_filled(centre, 2.0, tints::egui(tint));
+        painter.circle_filled(centre, 2.0, colours::egui(tint));
     } else {
         let on_pitch = ends.turn(vector).normalize_or_zero();
         let way = egui::vec2(on_pitch.x, -on_pitch.y) * (5.0 + 4.0 * vector.length().min(1.0));
-        painter.arrow(centre - way, 2.0 * way, egui::Stroke::new(2.0, tints::egui(tint)));
+        painter.arrow(centre - way, 2.0 * way, egui::Stroke::new(2.0, colours::egui(tint)));
     }
     let figures = [
-        if idle { "0".into() } else { figures::fixed(vector.length(), 2) },
-        if idle { String::new() } else { format!("{}°", figures::degrees(angle(vector))) },
+        if idle { "0".into() } else { format::fixed(vector.length(), 2) },
+        if idle { String::new() } else { format!("{}°", format::degrees(angle(vector))) },
     ];
     table::paint_row(ui, rect.with_min_x(rect.left() + ICON), name, &figures, FIGURE);
     response
 }
 
-fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut Desk) {
+fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut PanelActions) {
     let mut wanted = desk.weights.shown(place, in_force);
     let filed = desk.weights.in_file(place).unwrap_or(in_force);
     let differs = (wanted - filed).abs() > 1e-3;
@@ -109,12 +110,12 @@ fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut Desk) {
     let value = value.clamp_existing_to_range(false).update_while_editing(false);
     ui.scope(|ui| {
         if differs {
-            ui.visuals_mut().override_text_color = Some(tints::egui(tints::CHANGED));
+            ui.visuals_mut().override_text_color = Some(colours::egui(colours::CHANGED));
         }
         ui.add_sized([VALUE, ROW], value).on_hover_text("Drag, or click to type");
     });
     if differs {
-        let tip = format!("Reset to the file's {}", figures::fixed(filed, 2));
+        let tip = format!("Reset to the file's {}", format::fixed(filed, 2));
         if ui.add_sized([RESET, ROW], egui::Button::new("⟲").frame(false)).on_hover_text(tip).clicked() {
             wanted = filed;
         }
@@ -124,34 +125,34 @@ fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut Desk) {
     }
 }
 
-fn sum(ui: &mut egui::Ui, robot: &Looked) {
+fn sum(ui: &mut egui::Ui, robot: &SelectedRobot) {
     let fixed = SLIDER + VALUE + RESET + 3.0 * 4.0;
     let room = egui::vec2((ui.available_width() - fixed).max(40.0), ROW);
     ui.allocate_ui(room, |ui| {
-        vector_row(ui, "sum", robot.of.contributions.sum, tints::SUM, robot.ends).on_hover_text(
+        vector_row(ui, "sum", robot.of.contributions.sum, colours::SUM, robot.ends).on_hover_text(
             "Its angle is where to go, in the team frame: 0° to the opponents' goal, positive to the left. \
              Its length is how fast, as a share of the state's speed",
         );
     });
 }
 
-fn outcome(ui: &mut egui::Ui, robot: &Looked) {
+fn outcome(ui: &mut egui::Ui, robot: &SelectedRobot) {
     let name = if robot.of.piloted { "would" } else { "intends" };
     table::line(ui, name, intent(robot));
     match robot.of.command {
         DriveCommand::Wheels(speeds) => {
-            let [left, right] = [speeds.left, speeds.right].map(figures::speed);
+            let [left, right] = [speeds.left, speeds.right].map(format::speed);
             table::line(ui, "wheels", format!("left {left}, right {right}"));
         }
         DriveCommand::Gait(gait) => {
-            let [ahead, left] = [gait.ahead, gait.left].map(figures::speed);
-            let turn = figures::fixed(gait.turn.to_degrees(), 0);
+            let [ahead, left] = [gait.ahead, gait.left].map(format::speed);
+            let turn = format::fixed(gait.turn.to_degrees(), 0);
             table::line(ui, "legs", format!("{ahead} ahead, {left} to the left, {turn}°/s"));
         }
     }
 }
 
-fn intent(robot: &Looked) -> RichText {
+fn intent(robot: &SelectedRobot) -> RichText {
     let words = match *robot.of.intent {
         SteeringIntent::Stop => "to stand still".into(),
         SteeringIntent::Spin(rate) => {
@@ -161,13 +162,13 @@ fn intent(robot: &Looked) -> RichText {
             let turn = wrap_angle(heading - robot.of.odometry.pose.heading);
             let pace = format!(
                 "{} ({})",
-                figures::speed(speed.abs() * robot.of.robot.kind.max_speed()),
-                figures::percent(speed.abs())
+                format::speed(speed.abs() * robot.of.robot.kind.max_speed()),
+                format::percent(speed.abs())
             );
             match speed {
-                0.0 => format!("to face {}", figures::aside(turn)),
-                _ if speed < 0.0 => format!("to back up at {pace}, turning {}", figures::aside(turn)),
-                _ => format!("to drive {} at {pace}", figures::aside(turn)),
+                0.0 => format!("to face {}", format::aside(turn)),
+                _ if speed < 0.0 => format!("to back up at {pace}, turning {}", format::aside(turn)),
+                _ => format!("to drive {} at {pace}", format::aside(turn)),
             }
         }
     };

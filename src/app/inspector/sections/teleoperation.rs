@@ -3,27 +3,28 @@
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
-use super::{Desk, identity, pad};
-use crate::app::inspector::figures;
-use crate::app::inspector::subject::Looked;
-use crate::app::view::keys::{Deed, Drive, Keyboard};
-use crate::app::view::levers::Levers;
+use super::{PanelActions, identity, joystick};
+use crate::app::inspector::subject::SelectedRobot;
+use crate::app::view::format;
+use crate::app::view::input::keyboard::Keyboard;
+use crate::app::view::input::keys::{Deed, DriveKey};
+use crate::app::view::input::manual_control::ManualControl;
 use crate::robot::handling::Grip;
-use crate::robot::{Drive as Legs, Kick, RobotKind};
+use crate::robot::{Drive, Kick, RobotKind};
 
 /// Width of a lever, in points.
 const LEVER: f32 = 120.0;
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
     let kind = &robot.of.robot.kind;
-    let mine = robot.of.piloted && desk.piloted.0 == Some(robot.id);
+    let mine = desk.piloted.0 == Some(robot.id);
     if !mine {
         ui.horizontal(|ui| {
-            identity::hand_over(ui, robot.id, robot.of.piloted, desk);
+            identity::hand_over(ui, robot.id, desk);
             ui.weak("the robot to work its levers");
         });
     }
-    let mut still = Levers::default();
+    let mut still = ManualControl::default();
     ui.add_enabled_ui(mine, |ui| {
         let levers = if mine { &mut *desk.levers } else { &mut still };
         ui.horizontal_top(|ui| {
@@ -31,7 +32,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
             ui.add_space(6.0);
             ui.vertical(|ui| {
                 speeds(ui, kind, levers);
-                if matches!(kind.drive, Legs::Walker(_)) {
+                if matches!(kind.drive, Drive::Walker(_)) {
                     turn(ui, kind, levers);
                 }
                 head(ui, robot, levers);
@@ -45,33 +46,33 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &Looked, desk: &mut Desk) {
 }
 
 /// The pad. What has wheels turns where what has legs steps aside.
-fn walk(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
+fn walk(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut ManualControl) {
     match kind.drive {
-        Legs::Walker(_) => pad::show(ui, &mut levers.pull.walk, "left and right step aside"),
-        Legs::Differential(_) => {
+        Drive::Walker(_) => joystick::show(ui, &mut levers.pull.walk, "left and right step aside"),
+        Drive::Differential(_) => {
             let mut way = Vec2::new(levers.pull.walk.x, levers.pull.turn);
-            pad::show(ui, &mut way, "left and right turn");
+            joystick::show(ui, &mut way, "left and right turn");
             (levers.pull.walk.x, levers.pull.turn) = (way.x, way.y);
         }
     }
 }
 
 /// What the pad asks for.
-fn speeds(ui: &mut egui::Ui, kind: &RobotKind, levers: &Levers) {
+fn speeds(ui: &mut egui::Ui, kind: &RobotKind, levers: &ManualControl) {
     let Vec2 { x, y } = levers.pull.walk;
     let (ahead, second) = match kind.drive {
-        Legs::Walker(walker) => {
+        Drive::Walker(walker) => {
             let ahead = x * if x >= 0.0 { walker.ahead } else { walker.back };
-            (ahead, format!("{} to the {}", figures::speed(y.abs() * walker.aside), side(y)))
+            (ahead, format!("{} to the {}", format::speed(y.abs() * walker.aside), side(y)))
         }
-        Legs::Differential(drive) => {
+        Drive::Differential(drive) => {
             let turn = levers.pull.turn;
-            let rate = figures::fixed(turn.abs() * drive.turn_rate, 0);
+            let rate = format::fixed(turn.abs() * drive.turn_rate, 0);
             (x * drive.max_speed, format!("{rate}°/s to the {}", side(turn)))
         }
     };
     let way = if ahead >= 0.0 { "ahead" } else { "back" };
-    ui.label(format!("{} {way}, {second}", figures::speed(ahead.abs())));
+    ui.label(format!("{} {way}, {second}", format::speed(ahead.abs())));
 }
 
 fn side(left: f32) -> &'static str {
@@ -87,14 +88,14 @@ fn lever(ui: &mut egui::Ui, name: &str, value: &mut f32, most: f32, unit: &str) 
         *value = value.round();
         let slider = egui::Slider::new(value, most..=-most)
             .fixed_decimals(0)
-            .custom_formatter(|value, _| figures::fixed(value as f32, 0))
+            .custom_formatter(|value, _| format::fixed(value as f32, 0))
             .suffix(unit.to_owned());
         ui.add(slider)
     })
     .inner
 }
 
-fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
+fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut ManualControl) {
     let most = kind.max_turn().to_degrees();
     let mut rate = levers.pull.turn * most;
     let slider = lever(ui, "Turn", &mut rate, most, "°/s");
@@ -111,7 +112,7 @@ fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut Levers) {
     }
 }
 
-fn head(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
+fn head(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl) {
     let Some(neck) = &robot.of.robot.kind.neck else { return };
     let mut pan = levers.head.map_or(robot.of.head.pan.to_degrees(), |share| share * neck.pan);
     let slider = lever(ui, "Head", &mut pan, neck.pan, "°");
@@ -131,7 +132,7 @@ fn head(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
     }
 }
 
-fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers, keyboard: &Keyboard) {
+fn hold(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl, keyboard: &Keyboard) {
     let told = match robot.of.handling.grip {
         Grip::Open => "open",
         Grip::Lowering { .. } => "goes down",
@@ -139,7 +140,7 @@ fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers, keyboard: &Keybo
         Grip::Raising { .. } => "missed, goes up",
     };
     ui.horizontal(|ui| {
-        let key = keyboard.key(Deed::Drive(Drive::Hold));
+        let key = keyboard.key(Deed::Drive(DriveKey::Hold));
         let tip =
             format!("The chin catches the ball when it is before the chest, and keeps it ({key}, held)");
         ui.checkbox(&mut levers.pull.hold, "hold the ball").on_hover_text(tip);
@@ -147,7 +148,7 @@ fn hold(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers, keyboard: &Keybo
     });
 }
 
-fn kicks(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
+fn kicks(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl) {
     let kicks = &robot.of.robot.kind.kicks;
     if kicks.is_empty() {
         return;
@@ -170,12 +171,12 @@ fn kicks(ui: &mut egui::Ui, robot: &Looked, levers: &mut Levers) {
 
 /// A kick in words.
 fn told(kick: &Kick) -> String {
-    let way = figures::aside(kick.direction.to_radians());
+    let way = format::aside(kick.direction.to_radians());
     let hold = if kick.from_hold { "; the chin has to hold the ball" } else { "" };
     format!(
         "Sends the ball {way}, {} far, within {}{hold}",
-        figures::metres(kick.run_out),
-        figures::seconds(kick.time)
+        format::metres(kick.run_out),
+        format::seconds(kick.time)
     )
 }
 

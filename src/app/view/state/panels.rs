@@ -1,0 +1,146 @@
+//! What is open: dialogues over the pitch, and panels, which are remembered apart for watching and for playing, since a player
+//! needs to see little besides the match.
+
+use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::overlays::{Overlay, Overlays};
+
+/// What lies over the pitch.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OpenDialogues {
+    pub question: Option<Question>,
+    pub help: bool,
+    /// The final score.
+    pub result: bool,
+}
+
+/// What is asked before it is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    Restart,
+    Leave,
+}
+
+impl OpenDialogues {
+    /// Closes the uppermost thing; whether there was one.
+    pub fn close_one(&mut self) -> bool {
+        let open = [self.question.take().is_some(), self.help, self.result];
+        match open {
+            [true, ..] => true,
+            [_, true, _] => std::mem::take(&mut self.help),
+            [.., result] => {
+                self.result = false;
+                result
+            }
+        }
+    }
+}
+
+/// What of the inspector is open.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inspector {
+    /// The panel.
+    pub open: bool,
+    /// The view of the whole world.
+    pub world: bool,
+}
+
+impl Default for Inspector {
+    fn default() -> Inspector {
+        Inspector { open: true, world: false }
+    }
+}
+
+/// Overlays and panels that are open together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OpenPanels {
+    pub overlays: Overlays,
+    pub inspector: bool,
+}
+
+/// What is open while a person watches, and while they drive a robot.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RememberedPanels {
+    pub watching: OpenPanels,
+    pub playing: OpenPanels,
+    /// Which of them is shown.
+    plays: bool,
+}
+
+impl Default for RememberedPanels {
+    fn default() -> RememberedPanels {
+        RememberedPanels {
+            watching: OpenPanels { overlays: Overlays::default(), inspector: true },
+            playing: OpenPanels { overlays: Overlays::only([Overlay::Labels]), inspector: false },
+            plays: false,
+        }
+    }
+}
+
+impl RememberedPanels {
+    pub fn new(watching: OpenPanels, playing: OpenPanels) -> RememberedPanels {
+        RememberedPanels { watching, playing, plays: false }
+    }
+
+    fn shown(&mut self) -> &mut OpenPanels {
+        if self.plays { &mut self.playing } else { &mut self.watching }
+    }
+
+    /// Takes note of what is open, unless the person has just begun or ceased to play: then what to open.
+    pub fn follow(&mut self, open: OpenPanels, plays: bool) -> Option<OpenPanels> {
+        if self.plays == plays {
+            *self.shown() = open;
+            return None;
+        }
+        self.plays = plays;
+        Some(*self.shown()).filter(|wanted| *wanted != open)
+    }
+}
+
+/// How large panels are whose edges can be dragged, in points.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PanelSizes {
+    /// Its width.
+    pub inspector: f32,
+    /// Its height.
+    pub radio: f32,
+    /// Its height.
+    pub communication: f32,
+}
+
+impl Default for PanelSizes {
+    fn default() -> PanelSizes {
+        PanelSizes { inspector: 400.0, radio: 246.0, communication: 246.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escape_closes_one_thing_at_a_time_from_the_top() {
+        let mut open = OpenDialogues { question: Some(Question::Leave), help: true, result: true };
+        assert!(open.close_one());
+        assert_eq!(open, OpenDialogues { question: None, help: true, result: true });
+        assert!(open.close_one() && open.close_one());
+        assert_eq!(open, OpenDialogues::default());
+        assert!(!open.close_one());
+    }
+
+    #[test]
+    fn a_player_sees_little_until_more_is_asked_for_and_a_watcher_what_was_open_before() {
+        let mut remembered = RememberedPanels::default();
+        let watching = remembered.watching;
+        let playing = remembered.follow(watching, true).expect("a player sees less");
+        assert_eq!(playing, OpenPanels { overlays: Overlays::only([Overlay::Labels]), inspector: false });
+        let asked =
+            OpenPanels { overlays: Overlays::only([Overlay::Labels, Overlay::Vectors]), inspector: true };
+        assert_eq!(remembered.follow(asked, true), None);
+        assert_eq!(remembered.follow(asked, false), Some(watching));
+        assert_eq!(remembered.follow(watching, true), Some(asked));
+    }
+}

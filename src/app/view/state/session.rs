@@ -1,0 +1,58 @@
+//! The match that the window plays, and the one that a person wants next.
+
+use std::path::PathBuf;
+
+use bevy::prelude::*;
+
+use crate::data::AssetFolder;
+use crate::game::{Choice, MatchPlan};
+use crate::ids::Team;
+use crate::lab::scenario::ScenarioPlan;
+
+/// Where the files are.
+#[derive(Resource, Clone, Debug)]
+pub struct Folder(pub AssetFolder);
+
+/// What a person wants to see.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MatchRequest {
+    Match(Choice),
+    /// A scenario with one of its seeds or with any other.
+    Scenario {
+        path: PathBuf,
+        /// Its first one, if not given.
+        seed: Option<u64>,
+    },
+}
+
+impl Default for MatchRequest {
+    fn default() -> MatchRequest {
+        MatchRequest::Match(Choice::default())
+    }
+}
+
+/// What is wanted next.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct PendingMatch(pub Option<MatchRequest>);
+
+/// The match that is played.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Session {
+    /// What it was made of.
+    pub wanted: MatchRequest,
+    /// What that came to; none before the first match.
+    pub plan: Option<MatchPlan>,
+    /// The scenario that it belongs to.
+    pub scenario: Option<ScenarioPlan>,
+}
+
+impl Session {
+    /// Whether a team takes part.
+    pub fn has(&self, team: Team) -> bool {
+        self.scenario.as_ref().is_none_or(|plan| plan.scenario.sides[team.index()].is_some())
+    }
+}
+
+/// A match has been put into the world, from its beginning.
+#[derive(Event, Clone, Copy, Debug)]
+pub struct MatchBegun;

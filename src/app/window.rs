@@ -1,0 +1,68 @@
+//! The window: puts view and inspector together, opens them, and tells how it ended.
+
+use bevy::log::{Level, LogPlugin};
+use bevy::prelude::*;
+use bevy::window::{PresentMode, WindowResolution};
+use bevy_egui::EguiPlugin;
+
+use crate::app::view::interface::{settings, window_size};
+use crate::app::view::state::{Folder, PendingMatch};
+use crate::app::view::time::expectations;
+use crate::app::{inspector, logging, view};
+use crate::data::AssetFolder;
+
+pub use super::view::state::MatchRequest;
+
+/// How the window came to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WindowEnd {
+    /// By a person.
+    Closed,
+    /// By a person, while it showed a scenario that had failed.
+    ScenarioFailed,
+    /// By Ctrl-C in the terminal.
+    Interrupted,
+    /// By itself.
+    Failed,
+}
+
+/// Opens the window and returns how it ended: begins at the menu, or in the match if one is wanted.
+pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> WindowEnd {
+    let mut app = App::new();
+    app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window()), ..default() }).set(
+        LogPlugin {
+            level: Level::ERROR,
+            filter: String::new(),
+            fmt_layer: logging::window_layer,
+            ..default()
+        },
+    ));
+    app.add_plugins((EguiPlugin::default(), crate::simulation, view::plugin, inspector::plugin));
+    app.insert_resource(Folder(assets.clone()));
+    app.insert_resource(PendingMatch(wanted));
+    if let Some(file) = settings::SettingsFile::of_this_person() {
+        app.insert_resource(file);
+    }
+    match app.run() {
+        AppExit::Success => WindowEnd::Closed,
+        AppExit::Error(code) if code.get() == expectations::FAILED => WindowEnd::ScenarioFailed,
+        AppExit::Error(code) if code.get() == INTERRUPTED => WindowEnd::Interrupted,
+        AppExit::Error(_) => WindowEnd::Failed,
+    }
+}
+
+/// What Bevy says after Ctrl-C.
+const INTERRUPTED: u8 = 130;
+
+fn window() -> Window {
+    Window {
+        title: "Touchline".into(),
+        name: Some("touchline".into()),
+        resolution: WindowResolution::new(window_size::FIRST.x, window_size::FIRST.y),
+        present_mode: PresentMode::AutoVsync,
+        ..default()
+    }
+}
+
+#[cfg(test)]
+mod tests;
