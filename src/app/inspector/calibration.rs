@@ -3,7 +3,10 @@
 use std::sync::Arc;
 
 use crate::game::requests::Calibration;
-use crate::robot::{Drive, Eyes, RobotKind, Sensing};
+use crate::robot::{
+    Camera, Chin, DifferentialDrive, Drive, Eyes, Localisation, MemorySpans, OdometryNoise, RobotKind,
+    Sensing, Walker,
+};
 
 /// A robot's own copy of its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,200 +39,110 @@ pub struct Knob {
     pub at: fn(&mut RobotValues) -> Option<&mut f32>,
 }
 
-macro_rules! knob {
-    ($group:literal, $name:literal, $unit:literal, $least:literal..$most:literal, $decimals:literal, $tip:literal, $at:expr) => {
-        Knob {
+macro_rules! knobs {
+    ($($group:literal $part:ident {
+        $($name:literal $least:literal..$most:literal $decimals:literal $unit:literal $($field:ident).+, $tip:literal;)*
+    })*) => {
+        /// All values, group by group.
+        pub const KNOBS: &[Knob] = &[$($(Knob {
             group: $group,
             name: $name,
             unit: $unit,
             range: ($least, $most),
             decimals: $decimals,
             tip: $tip,
-            at: $at,
-        }
+            at: |values| $part(values).map(|part| &mut part.$($field).+),
+        },)*)*];
     };
 }
 
-macro_rules! walker {
-    ($($field:ident).+) => {
-        |values| match &mut values.kind.drive {
-            Drive::Walker(walker) => Some(&mut walker.$($field).+),
-            Drive::Differential(_) => None,
-        }
-    };
+knobs! {
+    "Legs" walker {
+        "ahead"         0.05..0.8  2 "m/s"  ahead,          "Fastest walk ahead";
+        "back"          0.05..0.8  2 "m/s"  back,           "Fastest walk back";
+        "aside"         0.05..0.8  2 "m/s"  aside,          "Fastest step to either side";
+        "turn"          10.0..360.0 0 "°/s" turn,           "Fastest turn";
+        "acceleration"  0.1..3.0   2 "m/s²" acceleration,   "How fast the walk may change";
+        "slip"          0.0..0.5   2 ""     noise.share,    "Error of each step, as a share of its speed";
+        "drift"         0.0..0.15  3 "m/s"  noise.drift,    "Error of each step in any direction";
+        "turn error"    0.0..20.0  1 "°/s"  noise.turn,     "Error of each step's turn";
+    }
+    "Wheels" wheels {
+        "top speed"     0.1..1.5   2 "m/s"  max_speed,      "Fastest that a wheel goes";
+        "acceleration"  0.2..5.0   2 "m/s²" acceleration,   "How fast a wheel's speed may change";
+        "turn"          20.0..360.0 0 "°/s" turn_rate,      "Fastest turn on the spot";
+        "tolerance"     0.0..15.0  1 "°"    dead_band,      "Heading errors below this are left while it stands";
+    }
+    "Chin" chin {
+        "success"       0.0..1.0   2 ""     success,        "Chance that an attempt to catch the ball succeeds";
+        "ball speed"    0.05..1.0  2 "m/s"  speed,          "Fastest ball that can be caught";
+        "walk"          0.0..1.0   2 ""     walk,           "Share of its speed that is left with a ball";
+        "force"         0.1..10.0  1 "N"    force,          "Most that the hold pulls before the ball slips out";
+    }
+    "Camera" camera {
+        "range error"   0.0..0.2   3 "1/m"  range_noise,    "Error of a measured range, times the range squared";
+        "angle error"   0.0..15.0  1 "°"    bearing_noise,  "Error of a measured angle";
+        "detection"     0.0..1.0   2 ""     detection,      "Chance that a frame shows what is in full view and near";
+        "phantoms"      0.0..0.05  4 ""     false_positive, "Chance that a frame takes something else for the ball";
+        "latency"       0.0..0.5   2 "s"    latency,        "From the shutter to the percept";
+        "ball range"    0.5..8.0   1 "m"    ball_range,     "Farthest ball that is seen";
+        "robot range"   0.5..8.0   1 "m"    robot_range,    "Farthest marker that is seen";
+    }
+    "Localisation" localisation {
+        "place error"   0.0..1.0   2 "m"    position,       "Error of each coordinate of its own place";
+        "heading error" 0.0..45.0  1 "°"    heading,        "Error of its own heading";
+        "drift time"    0.5..60.0  1 "s"    drift_time,     "How long an error lasts";
+    }
+    "Odometry" odometry {
+        "way error"     0.0..0.5   2 "m"    distance,       "Error after one metre";
+        "turn error"    0.0..20.0  1 "°"    heading,        "Error after half a metre";
+    }
+    "Memory" memory {
+        "ball"          0.0..10.0  1 "s"    ball,           "How long a ball is believed in that is not seen";
+        "robots"        0.0..10.0  1 "s"    robots,         "How long robots are believed in that are not seen";
+    }
 }
 
-macro_rules! wheels {
-    ($field:ident) => {
-        |values| match &mut values.kind.drive {
-            Drive::Differential(drive) => Some(&mut drive.$field),
-            Drive::Walker(_) => None,
-        }
-    };
+fn walker(values: &mut RobotValues) -> Option<&mut Walker> {
+    match &mut values.kind.drive {
+        Drive::Walker(walker) => Some(walker),
+        Drive::Differential(_) => None,
+    }
 }
 
-macro_rules! chin {
-    ($field:ident) => {
-        |values| values.kind.chin.as_mut().map(|chin| &mut chin.$field)
-    };
+fn wheels(values: &mut RobotValues) -> Option<&mut DifferentialDrive> {
+    match &mut values.kind.drive {
+        Drive::Differential(drive) => Some(drive),
+        Drive::Walker(_) => None,
+    }
 }
 
-macro_rules! eyes {
-    ($part:ident.$field:ident) => {
-        |values| match &mut values.sensing.eyes {
-            Eyes::Real { $part, .. } => Some(&mut $part.$field),
-            Eyes::Perfect => None,
-        }
-    };
+fn chin(values: &mut RobotValues) -> Option<&mut Chin> {
+    values.kind.chin.as_mut()
 }
 
-/// All values, group by group.
-pub const KNOBS: [Knob; 30] = [
-    knob!("Legs", "ahead", "m/s", 0.05..0.8, 2, "Fastest walk ahead", walker!(ahead)),
-    knob!("Legs", "back", "m/s", 0.05..0.8, 2, "Fastest walk back", walker!(back)),
-    knob!("Legs", "aside", "m/s", 0.05..0.8, 2, "Fastest step to either side", walker!(aside)),
-    knob!("Legs", "turn", "°/s", 10.0..360.0, 0, "Fastest turn", walker!(turn)),
-    knob!("Legs", "acceleration", "m/s²", 0.1..3.0, 2, "How fast the walk may change", walker!(acceleration)),
-    knob!(
-        "Legs",
-        "slip",
-        "",
-        0.0..0.5,
-        2,
-        "Error of each step, as a share of its speed",
-        walker!(noise.share)
-    ),
-    knob!("Legs", "drift", "m/s", 0.0..0.15, 3, "Error of each step in any direction", walker!(noise.drift)),
-    knob!("Legs", "turn error", "°/s", 0.0..20.0, 1, "Error of each step's turn", walker!(noise.turn)),
-    knob!("Wheels", "top speed", "m/s", 0.1..1.5, 2, "Fastest that a wheel goes", wheels!(max_speed)),
-    knob!(
-        "Wheels",
-        "acceleration",
-        "m/s²",
-        0.2..5.0,
-        2,
-        "How fast a wheel's speed may change",
-        wheels!(acceleration)
-    ),
-    knob!("Wheels", "turn", "°/s", 20.0..360.0, 0, "Fastest turn on the spot", wheels!(turn_rate)),
-    knob!(
-        "Wheels",
-        "tolerance",
-        "°",
-        0.0..15.0,
-        1,
-        "Heading errors below this are left while it stands",
-        wheels!(dead_band)
-    ),
-    knob!(
-        "Chin",
-        "success",
-        "",
-        0.0..1.0,
-        2,
-        "Chance that an attempt to catch the ball succeeds",
-        chin!(success)
-    ),
-    knob!("Chin", "ball speed", "m/s", 0.05..1.0, 2, "Fastest ball that can be caught", chin!(speed)),
-    knob!("Chin", "walk", "", 0.0..1.0, 2, "Share of its speed that is left with a ball", chin!(walk)),
-    knob!(
-        "Chin",
-        "force",
-        "N",
-        0.1..10.0,
-        1,
-        "Most that the hold pulls before the ball slips out",
-        chin!(force)
-    ),
-    knob!(
-        "Camera",
-        "range error",
-        "1/m",
-        0.0..0.2,
-        3,
-        "Error of a measured range, times the range squared",
-        eyes!(camera.range_noise)
-    ),
-    knob!(
-        "Camera",
-        "angle error",
-        "°",
-        0.0..15.0,
-        1,
-        "Error of a measured angle",
-        eyes!(camera.bearing_noise)
-    ),
-    knob!(
-        "Camera",
-        "detection",
-        "",
-        0.0..1.0,
-        2,
-        "Chance that a frame shows what is in full view and near",
-        eyes!(camera.detection)
-    ),
-    knob!(
-        "Camera",
-        "phantoms",
-        "",
-        0.0..0.05,
-        4,
-        "Chance that a frame takes something else for the ball",
-        eyes!(camera.false_positive)
-    ),
-    knob!("Camera", "latency", "s", 0.0..0.5, 2, "From the shutter to the percept", eyes!(camera.latency)),
-    knob!("Camera", "ball range", "m", 0.5..8.0, 1, "Farthest ball that is seen", eyes!(camera.ball_range)),
-    knob!(
-        "Camera",
-        "robot range",
-        "m",
-        0.5..8.0,
-        1,
-        "Farthest marker that is seen",
-        eyes!(camera.robot_range)
-    ),
-    knob!(
-        "Localisation",
-        "place error",
-        "m",
-        0.0..1.0,
-        2,
-        "Error of each coordinate of its own place",
-        eyes!(localisation.position)
-    ),
-    knob!(
-        "Localisation",
-        "heading error",
-        "°",
-        0.0..45.0,
-        1,
-        "Error of its own heading",
-        eyes!(localisation.heading)
-    ),
-    knob!(
-        "Localisation",
-        "drift time",
-        "s",
-        0.5..60.0,
-        1,
-        "How long an error lasts",
-        eyes!(localisation.drift_time)
-    ),
-    knob!("Odometry", "way error", "m", 0.0..0.5, 2, "Error after one metre", eyes!(odometry.distance)),
-    knob!("Odometry", "turn error", "°", 0.0..20.0, 1, "Error after half a metre", eyes!(odometry.heading)),
-    knob!("Memory", "ball", "s", 0.0..10.0, 1, "How long a ball is believed in that is not seen", |values| {
-        Some(&mut values.sensing.memory.ball)
-    }),
-    knob!(
-        "Memory",
-        "robots",
-        "s",
-        0.0..10.0,
-        1,
-        "How long robots are believed in that are not seen",
-        |values| Some(&mut values.sensing.memory.robots)
-    ),
-];
+fn eyes(values: &mut RobotValues) -> Option<(&mut Camera, &mut Localisation, &mut OdometryNoise)> {
+    match &mut values.sensing.eyes {
+        Eyes::Real { camera, localisation, odometry } => Some((camera, localisation, odometry)),
+        Eyes::Perfect => None,
+    }
+}
+
+fn camera(values: &mut RobotValues) -> Option<&mut Camera> {
+    eyes(values).map(|(camera, ..)| camera)
+}
+
+fn localisation(values: &mut RobotValues) -> Option<&mut Localisation> {
+    eyes(values).map(|(_, localisation, _)| localisation)
+}
+
+fn odometry(values: &mut RobotValues) -> Option<&mut OdometryNoise> {
+    eyes(values).map(|(.., odometry)| odometry)
+}
+
+fn memory(values: &mut RobotValues) -> Option<&mut MemorySpans> {
+    Some(&mut values.sensing.memory)
+}
 
 #[cfg(test)]
 mod tests {

@@ -5,16 +5,18 @@
 
 mod calibration;
 mod communication;
+mod low_panel;
 mod matching;
 mod outlines;
 mod overlays;
 mod panel;
+mod pending;
 mod radio;
 mod schema_kinds;
 mod sections;
 mod subject;
 mod table;
-mod weights;
+mod tuner;
 mod world_view;
 
 use bevy::prelude::*;
@@ -26,5 +28,5 @@ pub fn plugin(app: &mut App) {
 
 /// All but the view of the world, which wants a renderer.
 pub(crate) fn panels(app: &mut App) {
-    app.add_plugins((panel::plugin, overlays::plugin, radio::plugin, communication::plugin, weights::plugin));
+    app.add_plugins((panel::plugin, overlays::plugin, radio::plugin, communication::plugin));
 }

@@ -7,7 +7,6 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
 use super::sections::{self, PanelActions};
 use super::subject::{InspectedMatch, SelectedRobot};
-use super::weights::Weights;
 use crate::app::view::input::keyboard::Keyboard;
 use crate::app::view::input::manual_control::ManualControl;
 use crate::app::view::interface::dock::SizedPanel;
@@ -31,7 +30,6 @@ const MARGIN: egui::Margin = egui::Margin { left: 10, right: 6, top: 7, bottom: 
 struct Changes<'w> {
     inspector: ResMut<'w, Inspector>,
     requests: ResMut<'w, Requests>,
-    weights: ResMut<'w, Weights>,
     piloted: ResMut<'w, Piloted>,
     levers: ResMut<'w, ManualControl>,
     sizes: ResMut<'w, PanelSizes>,
@@ -78,7 +76,6 @@ fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
     set_close(ui);
     let mut desk = PanelActions {
         requests: &mut changes.requests,
-        weights: &mut changes.weights,
         piloted: &mut changes.piloted,
         levers: &mut changes.levers,
         file: changes.session.plan.as_ref().map(|plan| plan.team(robot.id.team)),
@@ -107,22 +104,4 @@ pub(super) fn set_close(ui: &mut egui::Ui) {
     style.spacing.interact_size.y = 18.0;
     // Beside the figures, not upon them.
     style.spacing.scroll.floating_allocated_width = 8.0;
-}
-
-/// Room for the button that closes a panel, in points.
-const CLOSE: f32 = 20.0;
-
-/// Shows contents in as many rows as they take, with a button at the right that closes the panel; whether that was clicked.
-pub(super) fn with_close_button(ui: &mut egui::Ui, tip: &str, contents: impl FnOnce(&mut egui::Ui)) -> bool {
-    let right = ui.max_rect().right();
-    let rows = ui.scope(|ui| {
-        ui.set_max_width((ui.available_width() - 1.5 * CLOSE).max(1.0));
-        ui.horizontal_wrapped(contents);
-    });
-    let corner = egui::pos2(right - CLOSE, rows.response.rect.top());
-    let place = egui::UiBuilder::new()
-        .max_rect(egui::Rect::from_min_size(corner, egui::Vec2::splat(CLOSE)))
-        .id_salt("close");
-    let close = ui.new_child(place).add(egui::Button::new("⏷").frame(false));
-    close.on_hover_text(tip).clicked()
 }

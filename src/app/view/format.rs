@@ -65,6 +65,11 @@ pub fn span(from: u64, to: u64, dt: f32) -> f32 {
     to.saturating_sub(from) as f32 * dt
 }
 
+/// A tick as seconds of the match.
+pub fn moment(tick: u64, dt: f32) -> String {
+    format!("{:.2} s", tick as f64 * f64::from(dt))
+}
+
 /// A share of one as whole per cent.
 pub fn percent(share: f32) -> String {
     format!("{} %", fixed(100.0 * share, 0))

@@ -2,8 +2,8 @@
 
 use bevy_egui::egui::{self, vec2};
 
-use super::columns::{self, Column, figures, heading, row, words};
 use super::modules::Names;
+use crate::app::inspector::table::{self, Column, counts, heading, row, words};
 use crate::app::view::{colours, format};
 use crate::clock::Clock;
 use crate::comms::tcm::fragments::{Assembly, AssemblyCounters, Unfinished};
@@ -13,11 +13,11 @@ const OPEN: [Column; 8] = [
     words("from", 96.0, "Who sends the message"),
     words("module", 108.0, "The module that sends it"),
     words("type", 92.0, "The type of its data"),
-    figures("number", 66.0, "The number that its sender gave it"),
-    figures("have", 76.0, "Fragments that have arrived, of all its fragments"),
+    counts("number", 66.0, "The number that its sender gave it"),
+    counts("have", 76.0, "Fragments that have arrived, of all its fragments"),
     words("", 110.0, "The same as a bar"),
-    figures("bytes", 70.0, "Bytes of data that have arrived"),
-    figures("age", 64.0, "Time since its first fragment arrived"),
+    counts("bytes", 70.0, "Bytes of data that have arrived"),
+    counts("age", 64.0, "Time since its first fragment arrived"),
 ];
 
 /// The counts of datagrams, each with its meaning.
@@ -40,7 +40,7 @@ pub fn show(ui: &mut egui::Ui, robot: Option<(RobotId, &Assembly)>, clock: &Cloc
     };
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
-            ui.set_width(columns::width(&OPEN) + 12.0);
+            ui.set_width(table::width(&OPEN) + 12.0);
             heading(ui, &OPEN);
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 if assembly.in_assembly().len() == 0 {
@@ -55,7 +55,7 @@ pub fn show(ui: &mut egui::Ui, robot: Option<(RobotId, &Assembly)>, clock: &Cloc
         ui.vertical(|ui| {
             ui.weak("What became of the datagrams");
             for ((name, tip), count) in FATES.into_iter().zip(fates(&assembly.counters())) {
-                row(ui, &FATE, &[name.to_owned(), count.to_string()]).on_hover_text(tip);
+                row(ui, &FATE, [name.to_owned(), count.to_string()]).on_hover_text(tip);
             }
         });
         ui.separator();
@@ -77,14 +77,14 @@ pub fn show(ui: &mut egui::Ui, robot: Option<(RobotId, &Assembly)>, clock: &Cloc
                 ),
                 ("patience", patience, "How long fragments are kept while some are missing"),
             ] {
-                row(ui, &LIMIT, &[name.to_owned(), value]).on_hover_text(tip);
+                row(ui, &LIMIT, [name.to_owned(), value]).on_hover_text(tip);
             }
         });
     });
 }
 
-const FATE: [Column; 2] = [words("", 100.0, ""), figures("", 66.0, "")];
-const LIMIT: [Column; 2] = [words("", 78.0, ""), figures("", 140.0, "")];
+const FATE: [Column; 2] = [words("", 100.0, ""), counts("", 66.0, "")];
+const LIMIT: [Column; 2] = [words("", 78.0, ""), counts("", 140.0, "")];
 
 fn kilobytes(bytes: usize) -> String {
     format!("{:.1} kB", bytes as f64 / 1000.0)
@@ -117,7 +117,7 @@ fn show_message(ui: &mut egui::Ui, message: &Unfinished, assembly: &Assembly, cl
         message.bytes.to_string(),
         format::seconds(format::span(0, age, clock.dt)),
     ];
-    let shown = row(ui, &OPEN, &cells);
+    let shown = row(ui, &OPEN, cells);
     let left: f32 = OPEN[..5].iter().map(|column| column.width).sum();
     let room = OPEN[5].width - 16.0;
     let whole = egui::Rect::from_min_size(

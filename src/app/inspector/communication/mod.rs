@@ -1,7 +1,6 @@
 //! The team communication's panel, across the window below the pitch, as the ChaosManager shows it: what modules said and heard by
 //! type, the queues in which their data wait, messages that arrived in part, and the referee box's view of the match.
 
-mod columns;
 mod counters;
 mod fragments;
 mod modules;
@@ -9,16 +8,13 @@ mod referee;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
-use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
+use bevy_egui::{EguiPrimaryContextPass, egui};
 use counters::SummedCounters;
 use egui::RichText;
 
+use super::low_panel::{LowDock, LowPanel};
 use crate::app::view::colours;
-use crate::app::view::input::keyboard::Keyboard;
-use crate::app::view::interface::dock::SizedPanel;
-use crate::app::view::state::{
-    Action, Edge, FreeArea, Overlay, Overlays, PanelSizes, PanelSystems, Screen, Selected, shows,
-};
+use crate::app::view::state::{Overlay, PanelSystems, Screen, Selected, shows};
 use crate::clock::Clock;
 use crate::comms::tcm::{DataType, Registry, Tcm, TcmClient};
 use crate::ids::{RobotId, Team};
@@ -114,51 +110,24 @@ impl CommunicationData<'_, '_> {
     }
 }
 
-/// Heights of the panel in points: least and most.
-const HEIGHT: (f32, f32) = (150.0, 420.0);
+const PANEL: LowPanel = LowPanel {
+    overlay: Overlay::Communication,
+    id: "communication",
+    heights: (150.0, 420.0),
+    closes: "Close the team communication's panel",
+};
 /// The least height of a page, in points; the panel scrolls where it is lower.
 const PAGE: f32 = 100.0;
 
-fn dock(
-    mut contexts: EguiContexts,
-    (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
-    heard: CommunicationData,
-    mut view: ResMut<CommunicationView>,
-    (mut sizes, keyboard): (ResMut<PanelSizes>, Res<Keyboard>),
-) -> Result {
-    let ctx = contexts.ctx_mut()?;
-    let panel = SizedPanel {
-        id: "communication",
-        edge: Edge::Bottom,
-        least: HEIGHT.0,
-        most: HEIGHT.1,
-        frame: egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)),
+fn dock(mut dock: LowDock, heard: CommunicationData, mut view: ResMut<CommunicationView>) -> Result {
+    let page = |ui: &mut egui::Ui, view: &mut CommunicationView| {
+        let page = egui::vec2(ui.available_width(), ui.available_height().max(PAGE));
+        ui.allocate_ui(page, |ui| {
+            let scroll = egui::ScrollArea::horizontal().auto_shrink(false);
+            scroll.show(ui, |ui| show_page(ui, view.page, view.whose, &heard));
+        });
     };
-    let closed = area.dock_sized(ctx, panel, &mut sizes.bypass_change_detection().communication, |ui| {
-        super::panel::set_close(ui);
-        egui::ScrollArea::vertical()
-            .auto_shrink(false)
-            .show(ui, |ui| {
-                let tip = keyboard.tip_that_says(
-                    "Close the team communication's panel",
-                    Action::Switch(Overlay::Communication),
-                );
-                let closed = super::panel::with_close_button(ui, &tip, |ui| show_head(ui, &heard, &mut view));
-                ui.separator();
-                let page = egui::vec2(ui.available_width(), ui.available_height().max(PAGE));
-                ui.allocate_ui(page, |ui| {
-                    egui::ScrollArea::horizontal()
-                        .auto_shrink(false)
-                        .show(ui, |ui| show_page(ui, view.page, view.whose, &heard));
-                });
-                closed
-            })
-            .inner
-    });
-    if closed == Some(true) {
-        overlays.set(Overlay::Communication, false);
-    }
-    Ok(())
+    dock.show(PANEL, &mut *view, |ui, view| show_toolbar(ui, &heard, view), page)
 }
 
 fn show_page(ui: &mut egui::Ui, page: CommunicationPage, whose: Whose, heard: &CommunicationData) {
@@ -177,7 +146,7 @@ fn show_page(ui: &mut egui::Ui, page: CommunicationPage, whose: Whose, heard: &C
 }
 
 /// Shows the pages and whose counters are meant.
-fn show_head(ui: &mut egui::Ui, heard: &CommunicationData, view: &mut CommunicationView) {
+fn show_toolbar(ui: &mut egui::Ui, heard: &CommunicationData, view: &mut CommunicationView) {
     ui.label(RichText::new("Team communication").size(15.0).strong());
     ui.separator();
     for (page, name, tip) in CommunicationPage::ALL {

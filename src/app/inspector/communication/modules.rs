@@ -2,8 +2,8 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::columns::{self, Column, figures, heading, row, words};
 use super::counters::SummedCounters;
+use crate::app::inspector::table::{self, Column, counts, heading, row, words};
 use crate::app::view::colours;
 use crate::comms::tcm::counters::{Dropped, TypeCount};
 use crate::comms::tcm::{DataType, Module};
@@ -11,24 +11,24 @@ use crate::comms::tcm::{DataType, Module};
 const TYPES: [Column; 12] = [
     words("module", 108.0, "The part of a robot's program that sends and receives"),
     words("type", 92.0, "The type of the data, as it was registered"),
-    figures("sent", 50.0, "Messages sent"),
-    figures("kB", 50.0, "Data of the messages sent, in kilobytes, once however many receive them"),
-    figures("datagrams", 76.0, "Datagrams sent: each fragment counts once for each receiver"),
-    figures("received", 66.0, "Messages received"),
-    figures("kB in", 50.0, "Data of the messages received, in kilobytes"),
-    figures("queue full", 76.0, "Dropped before sending: the module's queue had no room"),
-    figures("too large", 68.0, "Dropped before sending: more fragments than a message may have"),
-    figures("over budget", 78.0, "Not sent: it would have gone beyond the team's budget of messages"),
-    figures("unknown", 64.0, "Dropped on arrival: nobody has registered for the type"),
-    figures("unreadable", 78.0, "Dropped on arrival: the data could not be unserialised"),
+    counts("sent", 50.0, "Messages sent"),
+    counts("kB", 50.0, "Data of the messages sent, in kilobytes, once however many receive them"),
+    counts("datagrams", 76.0, "Datagrams sent: each fragment counts once for each receiver"),
+    counts("received", 66.0, "Messages received"),
+    counts("kB in", 50.0, "Data of the messages received, in kilobytes"),
+    counts("queue full", 76.0, "Dropped before sending: the module's queue had no room"),
+    counts("too large", 68.0, "Dropped before sending: more fragments than a message may have"),
+    counts("over budget", 78.0, "Not sent: it would have gone beyond the team's budget of messages"),
+    counts("unknown", 64.0, "Dropped on arrival: nobody has registered for the type"),
+    counts("unreadable", 78.0, "Dropped on arrival: the data could not be unserialised"),
 ];
 
 const QUEUES: [Column; 5] = [
     words("queue of", 108.0, "Each module has a bounded queue at the TcmClient"),
-    figures("waiting", 58.0, "Items that wait for the TCM now"),
-    figures("put in", 56.0, "Items that the module has put in"),
-    figures("taken", 56.0, "Items that the TCM has taken"),
-    figures("dropped", 62.0, "Items that found the queue full, or were pushed out by newer ones"),
+    counts("waiting", 58.0, "Items that wait for the TCM now"),
+    counts("put in", 56.0, "Items that the module has put in"),
+    counts("taken", 56.0, "Items that the TCM has taken"),
+    counts("dropped", 62.0, "Items that found the queue full, or were pushed out by newer ones"),
 ];
 
 /// A type's name, where somebody has registered it.
@@ -37,7 +37,7 @@ pub type Names<'a> = &'a dyn Fn(DataType) -> String;
 pub fn show(ui: &mut egui::Ui, tally: &SummedCounters, names: Names) {
     ui.horizontal_top(|ui| {
         let scroll = |name: &str| egui::ScrollArea::vertical().id_salt(name).auto_shrink(false);
-        let wide = |ui: &mut egui::Ui, columns: &[Column]| ui.set_width(columns::width(columns) + 12.0);
+        let wide = |ui: &mut egui::Ui, columns: &[Column]| ui.set_width(table::width(columns) + 12.0);
         ui.vertical(|ui| {
             wide(ui, &TYPES);
             heading(ui, &TYPES);
@@ -59,13 +59,13 @@ fn show_types(ui: &mut egui::Ui, tally: &SummedCounters, names: Names) {
     for ((module, data_type), count) in used {
         let first = last.replace(*module) != Some(*module);
         let module = if first { module.to_string() } else { String::new() };
-        row(ui, &TYPES, &cells(module, names(*data_type), count));
+        row(ui, &TYPES, cells(module, names(*data_type), count));
     }
     if tally.others != TypeCount::default() {
-        row(ui, &TYPES, &cells("others".into(), String::new(), &tally.others))
+        row(ui, &TYPES, cells("others".into(), String::new(), &tally.others))
             .on_hover_text("Kinds of message that have no row, since there are too many");
     }
-    row(ui, &TYPES, &cells("all".into(), String::new(), &tally.total()));
+    row(ui, &TYPES, cells("all".into(), String::new(), &tally.total()));
     if !idle.is_empty() {
         let idle: Vec<String> = idle.into_iter().map(|((_, data_type), _)| names(*data_type)).collect();
         ui.label(RichText::new(format!("Registered and not used so far: {}", idle.join(", "))).weak());
@@ -115,7 +115,7 @@ fn show_queues(ui: &mut egui::Ui, tally: &SummedCounters) {
             counters.handed_over.to_string(),
             counters.dropped.to_string(),
         ];
-        let row = row(ui, &QUEUES, &cells);
+        let row = row(ui, &QUEUES, cells);
         if counters.dropped > 0 {
             let at = row.rect.left_center() - egui::vec2(4.0, 0.0);
             ui.painter().circle_filled(at, 2.0, colours::egui(crate::app::view::colours::PENALTY));
@@ -138,6 +138,6 @@ mod tests {
 
     #[test]
     fn both_tables_fit_beside_each_other_into_a_small_window() {
-        assert!(columns::width(&TYPES) + columns::width(&QUEUES) < 1280.0 - 60.0);
+        assert!(table::width(&TYPES) + table::width(&QUEUES) < 1280.0 - 60.0);
     }
 }

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
-use super::columns::{Column, figures, heading, row, words};
+use crate::app::inspector::table::{Column, counts, heading, row, words};
 use crate::app::view::picture::labels::off_text;
 use crate::app::view::{colours, format};
 use crate::clock::Clock;
@@ -21,7 +21,7 @@ const MATCH: [Column; 3] = [
     words("the match is", 150.0, "The match as it stands here"),
 ];
 const PACKETS: [Column; 2] =
-    [words("packets", 130.0, "What became of the packets heard"), figures("", 56.0, "")];
+    [words("packets", 130.0, "What became of the packets heard"), counts("", 56.0, "")];
 const ORDERS: [Column; 3] = [
     words("robot", 70.0, "A robot of the team"),
     words("is told", 84.0, "In which of the league's six states it has been told to be"),
@@ -61,7 +61,7 @@ pub fn show(
                 ui.vertical(|ui| {
                     heading(ui, &PACKETS);
                     for ((name, tip), count) in FATES.into_iter().zip(fates(&news.heard)) {
-                        row(ui, &PACKETS, &[name.into(), count.to_string()]).on_hover_text(tip);
+                        row(ui, &PACKETS, [name.into(), count.to_string()]).on_hover_text(tip);
                     }
                 });
                 ui.separator();
@@ -107,7 +107,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
     heading(ui, &MATCH);
     let view = news.and_then(|news| news.view.as_ref());
     for (name, said, stands) in rows(view, state) {
-        row(ui, &MATCH, &[name.into(), said.unwrap_or_else(|| format::UNKNOWN.into()), stands]);
+        row(ui, &MATCH, [name.into(), said.unwrap_or_else(|| format::UNKNOWN.into()), stands]);
     }
     for (team, penalties) in
         Team::BOTH.into_iter().zip(view.map(|view| &view.penalties).into_iter().flatten())
@@ -174,7 +174,7 @@ fn show_order(ui: &mut egui::Ui, robot: RobotId, orders: &Orders, state: &MatchS
         _ => String::new(),
     };
     let cells = [robot.to_string(), orders.state.to_string(), more];
-    let shown = row(ui, &ORDERS, &cells);
+    let shown = row(ui, &ORDERS, cells);
     let bar = shown.rect.with_max_x(shown.rect.left() - 3.0).with_min_x(shown.rect.left() - 6.0);
     ui.painter().rect_filled(
         bar.shrink2(egui::vec2(0.0, 2.0)),

@@ -3,14 +3,13 @@
 
 use bevy_egui::egui::{self, Align2, Pos2, Rect, RichText, Stroke, pos2, vec2};
 
-use super::belief_history::Span;
+use super::booking_beliefs::{BookingBelief, story};
 use super::chart::{LANE, NAMES, TIMES, paint_times, show_spans};
+use super::history::HistorySpan;
 use super::layout::Axes;
-use super::words::moment;
 use super::{RadioData, RadioView};
 use crate::app::view::{colours, format};
-use crate::clock::Clock;
-use crate::game::record::{BookingFigures, Span as Stretch};
+use crate::game::record::{BookingFigures, Span};
 use crate::ids::{RobotId, Team};
 use crate::robot::Condition;
 
@@ -80,13 +79,13 @@ fn paint_beliefs(
     for span in heard.beliefs.spans() {
         let Some(lane) = robots.iter().position(|(robot, _)| *robot == span.robot) else { continue };
         let Some(bar) = bar_of(span, axes, lane) else { continue };
-        let colour = colours::egui(colours::number(span.belief.booker));
+        let colour = colours::egui(colours::number(span.what.booker));
         painter.rect_filled(bar, 2.0, colour);
         let seen = bar.intersect(axes.rect);
-        if seen.width() > NUMBERED && span.belief.goes {
+        if seen.width() > NUMBERED && span.what.goes {
             let font = egui::FontId::proportional(13.0);
             let ink = colours::egui(colours::ROBOT);
-            painter.text(seen.center(), Align2::CENTER_CENTER, span.belief.booker, font, ink);
+            painter.text(seen.center(), Align2::CENTER_CENTER, span.what.booker, font, ink);
         }
         if pointer.is_some_and(|pointer| seen.expand2(vec2(1.0, 3.0)).contains(pointer)) {
             painter.rect_stroke(
@@ -102,31 +101,16 @@ fn paint_beliefs(
 }
 
 /// Where the bar of a span is; none if it is not within the time that is shown.
-fn bar_of(span: &Span, axes: &Axes, lane: usize) -> Option<Rect> {
+fn bar_of(span: &HistorySpan<BookingBelief>, axes: &Axes, lane: usize) -> Option<Rect> {
     let until = span.until.map_or(axes.now, |until| until as f64);
     if until < axes.start() {
         return None;
     }
     let from = axes.x(span.from as f64);
-    let height = if span.belief.goes { BARS.0 } else { BARS.1 };
+    let height = if span.what.goes { BARS.0 } else { BARS.1 };
     let half = height.min(axes.lane_height() - 4.0) / 2.0;
     let y = axes.y(lane);
     Some(Rect::from_x_y_ranges(from..=axes.x(until).max(from + 1.0), y - half..=y + half))
-}
-
-/// All that there is to tell of a span.
-fn story(span: &Span, clock: &Clock) -> String {
-    let Span { robot, belief, from, until } = *span;
-    let head = match (belief.goes, belief.booker == robot.number) {
-        (true, _) => format!("{robot} has booked the ball and goes to it"),
-        (false, true) => format!("{robot} has booked the ball but does not see it"),
-        (false, false) => format!("{robot} believes that {} has booked the ball", belief.booker),
-    };
-    let lasted = match until {
-        Some(until) => format!("for {}", format::seconds(format::span(from, until, clock.dt))),
-        None => "and still so".into(),
-    };
-    format!("{head}\nfrom {}, {lasted}", moment(from, clock))
 }
 
 /// The colour of each booker.
@@ -146,7 +130,7 @@ fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Condition)]) {
 
 /// How well the booking has done so far.
 fn show_figures(ui: &mut egui::Ui, booked: &BookingFigures) {
-    let stretch = |ui: &mut egui::Ui, name: &str, stretch: Stretch, tip: &str| {
+    let stretch = |ui: &mut egui::Ui, name: &str, stretch: Span, tip: &str| {
         ui.weak(name);
         let told = format::seconds(stretch.total as f32);
         let longest = format::seconds(stretch.longest as f32);
@@ -175,12 +159,11 @@ fn show_figures(ui: &mut egui::Ui, booked: &BookingFigures) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::belief_history::Belief;
     use super::super::samples::home;
     use super::*;
 
-    fn span(booker: u8, goes: bool, until: Option<u64>) -> Span {
-        Span { robot: home(2), belief: Belief { booker, goes }, from: 60, until }
+    fn span(booker: u8, goes: bool, until: Option<u64>) -> HistorySpan<BookingBelief> {
+        HistorySpan { robot: home(2), what: BookingBelief { booker, goes }, from: 60, until }
     }
 
     #[test]
@@ -191,14 +174,5 @@ mod tests {
         assert_eq!((bar.x_range(), bar.center().y), (egui::Rangef::new(50.0, 80.0), 60.0));
         assert_eq!(bar_of(&span(1, false, None), &axes, 0).unwrap().right(), 100.0);
         assert_eq!(bar_of(&span(1, false, Some(90)), &Axes { now: 200.0, ..axes }, 0), None);
-    }
-
-    #[test]
-    fn a_span_tells_who_believed_what_and_how_long() {
-        let clock = Clock::new(60.0);
-        let told = "home 2 believes that 1 has booked the ball\nfrom 1.00 s, for 0.5 s";
-        assert_eq!(story(&span(1, false, Some(90)), &clock), told);
-        assert!(story(&span(2, true, None), &clock).ends_with("goes to it\nfrom 1.00 s, and still so"));
-        assert!(story(&span(2, false, None), &clock).contains("does not see it"));
     }
 }

@@ -4,8 +4,9 @@
 use bevy_egui::egui::{self, Align2, Color32, Pos2, Rect, RichText, Stroke, pos2, vec2};
 
 use super::filter::is_of_a_swap;
+use super::history::HistorySpan;
 use super::layout::{Arrow, Axes, End, Labels};
-use super::locks::Hold;
+use super::locks::{attempt_story, lock_story};
 use super::{ChartSpan, RadioData, RadioView, words};
 use crate::app::view::colours;
 use crate::comms::messages::MessageKind;
@@ -147,23 +148,32 @@ fn paint_locks(
     let amber = colours::egui(colours::LOCK);
     let mut told = None;
     for span in heard.locks.spans() {
-        let Some(lane) = lanes.iter().position(|robot| *robot == span.robot) else { continue };
-        let (from, until) = (axes.x(span.from as f64), span.until.map_or(axes.now, |until| until as f64));
-        let until = axes.x(until).max(from + 2.0);
-        if until < axes.rect.left() {
-            continue;
+        let Some(bar) = lock_bar(span, axes, lanes) else { continue };
+        painter.rect_filled(bar, 1.5, amber);
+        if is_meant(bar, pointer) {
+            told = Some(lock_story(span, &heard.clock));
         }
-        let y = axes.y(lane);
-        let bar = Rect::from_x_y_ranges(from..=until, y - 3.5..=y + 3.5);
-        match span.hold {
-            Hold::Locked { .. } => painter.rect_filled(bar, 1.5, amber),
-            Hold::Attempt { .. } => painter.rect_stroke(bar, 1.5, (1.5, amber), egui::StrokeKind::Inside),
-        };
-        if pointer.is_some_and(|pointer| bar.expand(2.0).contains(pointer)) {
-            told = Some(words::story_of(span, &heard.clock));
+    }
+    for span in heard.attempts.spans() {
+        let Some(bar) = lock_bar(span, axes, lanes) else { continue };
+        painter.rect_stroke(bar, 1.5, (1.5, amber), egui::StrokeKind::Inside);
+        if is_meant(bar, pointer) {
+            told = Some(attempt_story(span, &heard.clock));
         }
     }
     told
+}
+
+/// Where the bar of a span is; none if it is not within the time that is shown.
+fn lock_bar<T>(span: &HistorySpan<T>, axes: &Axes, lanes: &[RobotId]) -> Option<Rect> {
+    let y = axes.y(lanes.iter().position(|robot| *robot == span.robot)?);
+    let from = axes.x(span.from as f64);
+    let until = axes.x(span.until.map_or(axes.now, |until| until as f64)).max(from + 2.0);
+    (until >= axes.rect.left()).then(|| Rect::from_x_y_ranges(from..=until, y - 3.5..=y + 3.5))
+}
+
+fn is_meant(bar: Rect, pointer: Option<Pos2>) -> bool {
+    pointer.is_some_and(|pointer| bar.expand(2.0).contains(pointer))
 }
 
 /// What the message under the pointer tells.

@@ -1,10 +1,11 @@
 //! The radio's panel, across the window below the pitch: what the robots of a team say to each other, how much of it arrives,
 //! and what a person may do to the radio and to the robots.
 
-mod belief_history;
+mod booking_beliefs;
 mod bookings;
 mod chart;
 mod filter;
+mod history;
 mod layout;
 mod locks;
 mod robots;
@@ -13,22 +14,21 @@ mod samples;
 mod toolbar;
 mod words;
 
-use belief_history::BeliefHistory;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
-use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
-use locks::LockHistory;
+use bevy_egui::{EguiPrimaryContextPass, egui};
+use booking_beliefs::BookingBelief;
+use history::History;
+use locks::SwapAttempt;
 
-use crate::app::view::input::keyboard::Keyboard;
-use crate::app::view::interface::dock::SizedPanel;
-use crate::app::view::state::{
-    Action, Edge, FreeArea, Overlay, Overlays, PanelSizes, PanelSystems, Playback, Screen, Selected, shows,
-};
+use super::low_panel::{LowDock, LowPanel};
+use crate::app::view::state::{Overlay, PanelSystems, Playback, Screen, Selected, shows};
 use crate::clock::Clock;
 use crate::comms::radio::{Conditions, RadioLog, Traffic};
 use crate::game::record::Record;
-use crate::game::requests::{Request, Requests};
+use crate::game::requests::Requests;
 use crate::ids::{RobotId, Team};
+use crate::protocol::role_swap::Lock;
 use crate::robot::{Condition, Robot};
 use crate::strategy::Strategies;
 
@@ -36,7 +36,7 @@ pub use filter::{Filter, is_of_a_swap};
 pub use layout::way_of_a_lost_one;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<RadioView>().add_plugins((locks::plugin, belief_history::plugin)).add_systems(
+    app.init_resource::<RadioView>().add_plugins((locks::plugin, booking_beliefs::plugin)).add_systems(
         EguiPrimaryContextPass,
         dock.in_set(PanelSystems::Low).run_if(in_state(Screen::Match).and_then(shows(Overlay::Radio))),
     );
@@ -92,8 +92,9 @@ struct RadioData<'w, 's> {
     log: Res<'w, RadioLog>,
     traffic: Res<'w, Traffic>,
     conditions: Res<'w, Conditions>,
-    locks: Res<'w, LockHistory>,
-    beliefs: Res<'w, BeliefHistory>,
+    locks: Res<'w, History<Lock>>,
+    attempts: Res<'w, History<SwapAttempt>>,
+    beliefs: Res<'w, History<BookingBelief>>,
     record: Res<'w, Record>,
     strategies: Res<'w, Strategies>,
     selected: Res<'w, Selected>,
@@ -115,74 +116,36 @@ impl RadioData<'_, '_> {
     }
 }
 
-/// What the panel asks for, and what waits for the next tick.
-struct RadioActions<'a> {
-    requests: &'a mut Requests,
-    asked: Vec<Request>,
-}
-
-impl RadioActions<'_> {
-    /// The newest value among the requests that wait, or the one in force.
-    fn shown<T>(&self, in_force: T, of: impl Fn(&Request) -> Option<T>) -> T {
-        self.requests.iter().filter_map(of).last().unwrap_or(in_force)
-    }
-
-    fn ask(&mut self, request: Request) {
-        self.asked.push(request);
-    }
-}
-
-/// Heights of the panel in points: least and most.
-const HEIGHT: (f32, f32) = (190.0, 420.0);
+const PANEL: LowPanel = LowPanel {
+    overlay: Overlay::Radio,
+    id: "radio",
+    heights: (190.0, 420.0),
+    closes: "Close the radio's panel",
+};
 /// The width that its pages need, in points; they scroll in a narrower window.
 const WIDTH: f32 = 600.0;
 
 fn dock(
-    mut contexts: EguiContexts,
-    (mut area, mut overlays): (ResMut<FreeArea>, ResMut<Overlays>),
+    mut dock: LowDock,
     heard: RadioData,
-    (mut view, mut requests): (ResMut<RadioView>, ResMut<Requests>),
-    (mut sizes, keyboard): (ResMut<PanelSizes>, Res<Keyboard>),
+    mut view: ResMut<RadioView>,
+    mut requests: ResMut<Requests>,
 ) -> Result {
-    let ctx = contexts.ctx_mut()?;
     let team = heard.selected.0.map(|robot| robot.team).or(view.team).unwrap_or(Team::Home);
     view.team = Some(team);
     let robots = heard.team(team);
-    let mut desk = RadioActions { requests: &mut requests, asked: Vec::new() };
-    let panel = SizedPanel {
-        id: "radio",
-        edge: Edge::Bottom,
-        least: HEIGHT.0,
-        most: HEIGHT.1,
-        frame: egui::Frame::side_top_panel(&ctx.global_style()).inner_margin(egui::Margin::symmetric(10, 5)),
+    let toolbar = |ui: &mut egui::Ui, (view, requests): &mut (&mut RadioView, &mut Requests)| {
+        toolbar::show(ui, team, &heard, view, requests);
     };
-    let closed = area.dock_sized(ctx, panel, &mut sizes.bypass_change_detection().radio, |ui| {
-        super::panel::set_close(ui);
-        egui::ScrollArea::vertical()
-            .auto_shrink(false)
-            .show(ui, |ui| {
-                let tip = keyboard.tip_that_says("Close the radio's panel", Action::Switch(Overlay::Radio));
-                let closed = super::panel::with_close_button(ui, &tip, |ui| {
-                    toolbar::show(ui, team, &heard, &mut view, &mut desk);
-                });
-                ui.separator();
-                egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
-                    ui.set_min_width(WIDTH);
-                    match view.page {
-                        RadioPage::Messages => chart::show(ui, &robots, &heard, &mut view),
-                        RadioPage::Bookings => bookings::show(ui, team, &robots, &heard, &mut view),
-                        RadioPage::Robots => robots::show(ui, &robots, &heard, &mut desk),
-                    }
-                });
-                closed
-            })
-            .inner
-    });
-    for request in desk.asked {
-        requests.ask(request);
-    }
-    if closed == Some(true) {
-        overlays.set(Overlay::Radio, false);
-    }
-    Ok(())
+    let page = |ui: &mut egui::Ui, (view, requests): &mut (&mut RadioView, &mut Requests)| {
+        egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+            ui.set_min_width(WIDTH);
+            match view.page {
+                RadioPage::Messages => chart::show(ui, &robots, &heard, view),
+                RadioPage::Bookings => bookings::show(ui, team, &robots, &heard, view),
+                RadioPage::Robots => robots::show(ui, &robots, &heard, requests),
+            }
+        });
+    };
+    dock.show(PANEL, &mut (&mut *view, &mut *requests), toolbar, page)
 }

@@ -2,10 +2,11 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::{RadioActions, RadioData};
+use super::RadioData;
+use crate::app::inspector::pending::Pending;
 use crate::app::view::colours;
 use crate::comms::radio::{LinkCounters, Loss};
-use crate::game::requests::{Request, Treatment, Weather};
+use crate::game::requests::{Request, Requests, Treatment, Weather};
 use crate::ids::RobotId;
 use crate::robot::{Ailment, Condition, Recall};
 
@@ -22,7 +23,7 @@ const FIGURES: [(&str, &str); 6] = [
     ("heard", "Messages that it heard"),
 ];
 
-pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, desk: &mut RadioActions) {
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, requests: &mut Requests) {
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("robots on the radio").num_columns(4).spacing([12.0, 5.0]).show(ui, |ui| {
             ui.weak("robot");
@@ -35,7 +36,7 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioDat
             ui.weak("and ends");
             ui.end_row();
             for (robot, condition) in robots {
-                show_robot(ui, *robot, *condition, heard, desk);
+                show_robot(ui, *robot, *condition, heard, requests);
                 ui.end_row();
             }
         });
@@ -47,7 +48,7 @@ fn show_robot(
     robot: RobotId,
     condition: Condition,
     heard: &RadioData,
-    desk: &mut RadioActions,
+    requests: &mut Requests,
 ) {
     let name = RichText::new(robot.to_string()).color(colours::egui(colours::team_text(robot.team)));
     ui.label(name);
@@ -62,12 +63,12 @@ fn show_robot(
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        show_ailments(ui, robot, condition, desk);
-        show_cut_off(ui, robot, heard.conditions.cut_off.contains(&robot), desk);
+        show_ailments(ui, robot, condition, requests);
+        show_cut_off(ui, robot, heard.conditions.cut_off.contains(&robot), requests);
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        let asked = desk.requests.iter().any(
+        let asked = requests.iter().any(
             |request| matches!(request, Request::Robot(of, Treatment::Revive(_)) if *of == robot),
         );
         for (recall, name, tip) in [
@@ -80,13 +81,13 @@ fn show_robot(
         ] {
             let button = ui.add_enabled(!condition.is_well() && !asked, egui::Button::new(name));
             if button.on_hover_text(tip).clicked() {
-                desk.ask(Request::Robot(robot, Treatment::Revive(recall)));
+                requests.ask(Request::Robot(robot, Treatment::Revive(recall)));
             }
         }
     });
 }
 
-fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, desk: &mut RadioActions) {
+fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, requests: &mut Requests) {
     for (ailment, name, tip) in [
         (Ailment::Crashed, "Crash", "Switches its computer off: it stands still, silent and deaf"),
         (Ailment::Frozen, "Freeze", "Switches its wheels off; it goes on thinking and talking"),
@@ -94,28 +95,29 @@ fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, desk: 
         (Ailment::Mute, "Mute", "Nothing that it says goes on air any more"),
     ] {
         let has = condition.with(ailment) == condition;
-        let asked = desk.requests.iter().any(|request| {
+        let asked = requests.iter().any(|request| {
             matches!(request, Request::Robot(of, Treatment::Afflict(one)) if *of == robot && *one == ailment)
         });
         let button = ui.add(egui::Button::new(name).selected(has || asked));
         let tip = if has { format!("{tip}. It is so: revive it to end that") } else { tip.to_owned() };
         if button.on_hover_text(tip).clicked() && !has && !asked {
-            desk.ask(Request::Robot(robot, Treatment::Afflict(ailment)));
+            requests.ask(Request::Robot(robot, Treatment::Afflict(ailment)));
         }
     }
 }
 
-fn show_cut_off(ui: &mut egui::Ui, robot: RobotId, in_force: bool, desk: &mut RadioActions) {
-    let cut_off = desk.shown(in_force, |request| match request {
+fn show_cut_off(ui: &mut egui::Ui, robot: RobotId, in_force: bool, requests: &mut Requests) {
+    let cut_off = Pending::new(in_force, requests, |request| match request {
         Request::Air(Weather::CutOff(of)) if *of == robot => Some(true),
         Request::Air(Weather::Reconnect(of)) if *of == robot => Some(false),
         _ => None,
-    });
+    })
+    .shown();
     let (words, weather) =
         if cut_off { ("Reconnect", Weather::Reconnect(robot)) } else { ("Cut off", Weather::CutOff(robot)) };
     let tip = "A robot that is cut off hears nobody and is heard by nobody";
     if ui.add(egui::Button::new(words).selected(cut_off)).on_hover_text(tip).clicked() {
-        desk.ask(Request::Air(weather));
+        requests.ask(Request::Air(weather));
     }
 }
 

@@ -1,11 +1,12 @@
-//! The head of the radio's panel: whose radio it is, its pages, and what a person does to the air.
+//! The controls of the radio's panel: whose radio it is, its pages, and what a person does to the air.
 
 use bevy_egui::egui::{self, RichText};
 
-use super::{RadioActions, RadioData, RadioPage, RadioView};
+use super::{RadioData, RadioPage, RadioView};
+use crate::app::inspector::pending::Pending;
 use crate::app::view::colours;
 use crate::app::view::state::Selected;
-use crate::game::requests::{Request, Weather};
+use crate::game::requests::{Request, Requests, Weather};
 use crate::ids::Team;
 
 /// Width of a slider, in points.
@@ -13,7 +14,7 @@ const SLIDER: f32 = 90.0;
 /// The largest extra delay that the slider offers, s.
 const LONGEST_DELAY: f32 = 2.0;
 
-pub fn show(ui: &mut egui::Ui, team: Team, heard: &RadioData, view: &mut RadioView, desk: &mut RadioActions) {
+pub fn show(ui: &mut egui::Ui, team: Team, heard: &RadioData, view: &mut RadioView, requests: &mut Requests) {
     let title = RichText::new(format!("Radio, {team}")).size(15.0).strong();
     ui.label(title.color(colours::egui(colours::team_text(team))));
     if heard.selected.as_ref() == &Selected(None) {
@@ -33,48 +34,51 @@ pub fn show(ui: &mut egui::Ui, team: Team, heard: &RadioData, view: &mut RadioVi
         }
     }
     ui.separator();
-    show_weather(ui, heard, desk);
+    show_weather(ui, heard, requests);
 }
 
 /// Extra loss, extra delay and the jam.
-fn show_weather(ui: &mut egui::Ui, heard: &RadioData, desk: &mut RadioActions) {
+fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     ui.spacing_mut().slider_width = SLIDER;
     let conditions = &heard.conditions;
-    let loss = desk.shown(conditions.extra_loss, |request| match request {
+    let loss = Pending::new(conditions.extra_loss, requests, |request| match request {
         Request::Air(Weather::ExtraLoss(share)) => Some(*share),
         _ => None,
-    });
+    })
+    .shown();
     ui.add(egui::Label::new("Extra loss").extend());
     let mut percent = 100.0 * loss;
     let slider = egui::Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).fixed_decimals(0).suffix(" %");
     let tip = "Chance that a message is lost which the radio itself would have brought over";
     if ui.add(slider).on_hover_text(tip).changed() {
-        desk.ask(Request::Air(Weather::ExtraLoss(percent / 100.0)));
+        requests.ask(Request::Air(Weather::ExtraLoss(percent / 100.0)));
     }
-    let delay = desk.shown(conditions.extra_delay, |request| match request {
+    let delay = Pending::new(conditions.extra_delay, requests, |request| match request {
         Request::Air(Weather::ExtraDelay(seconds)) => Some(*seconds),
         _ => None,
-    });
+    })
+    .shown();
     ui.add(egui::Label::new("Extra delay").extend());
     let mut seconds = delay;
     let slider =
         egui::Slider::new(&mut seconds, 0.0..=LONGEST_DELAY).step_by(0.05).fixed_decimals(2).suffix(" s");
     if ui.add(slider).on_hover_text("Added to the way of every message").changed() {
-        desk.ask(Request::Air(Weather::ExtraDelay(seconds)));
+        requests.ask(Request::Air(Weather::ExtraDelay(seconds)));
     }
-    let jammed = desk.shown(conditions.jammed, |request| match request {
+    let jammed = Pending::new(conditions.jammed, requests, |request| match request {
         Request::Air(Weather::Jam(jammed)) => Some(*jammed),
         _ => None,
-    });
+    })
+    .shown();
     let words = if jammed { "Jammed: end it" } else { "Jam" };
     let tip = "While the radio is jammed, no message of either team gets through";
     if ui.add(egui::Button::new(words).selected(jammed)).on_hover_text(tip).clicked() {
-        desk.ask(Request::Air(Weather::Jam(!jammed)));
+        requests.ask(Request::Air(Weather::Jam(!jammed)));
     }
     if !conditions.partitions.is_empty() {
         let heal = ui.button("Heal").on_hover_text("Ends all partitions");
         if heal.clicked() {
-            desk.ask(Request::Air(Weather::Heal));
+            requests.ask(Request::Air(Weather::Heal));
         }
     }
 }

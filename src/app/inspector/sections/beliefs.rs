@@ -5,7 +5,7 @@ use bevy_egui::egui;
 
 use crate::app::inspector::matching::{BeliefPair, error, pair};
 use crate::app::inspector::subject::SelectedRobot;
-use crate::app::inspector::table;
+use crate::app::inspector::table::{self, Column, figures, words};
 use crate::app::view::colours;
 use crate::app::view::format::{UNKNOWN, coordinates, degrees, fixed, metres, seconds, span};
 use crate::geometry::wrap_angle;
@@ -15,8 +15,20 @@ use crate::protocol::b3p::B3p;
 const FRAME: &str =
     "Metres in the team frame: x towards the opponents' goal, y to the left, from the centre spot";
 
+/// Width of a column of figures, in points: room for `−10.55`.
+const FIGURE: f32 = 47.0;
+const BELIEFS: [Column; 7] = [
+    words("", 0.0, ""),
+    figures("believed x", FIGURE, FRAME),
+    figures("y", FIGURE, FRAME),
+    figures("true x", FIGURE, FRAME),
+    figures("y", FIGURE, FRAME),
+    figures("off by", FIGURE, "Distance from the belief to the truth"),
+    figures("age, s", FIGURE, "Time since it was seen"),
+];
+
 pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
-    table::heading(ui, &["believed x", "y", "true x", "y", "off by", "age, s"]);
+    table::heading(ui, &BELIEFS);
     own_pose(ui, robot);
     ball(ui, robot);
     for pair in pair(&robot.of.model.robots, &robot.others) {
@@ -64,7 +76,8 @@ fn compare(
     let ([bx, by], [tx, ty]) = (text(places.0), text(places.1));
     let off = error(places).map_or(String::new(), |off| fixed(off, 2));
     let age = age.map_or(String::new(), |age| fixed(age, 1));
-    table::row(ui, name, &[&bx, &by, &tx, &ty, &off, &age])
+    let figures = [bx, by, tx, ty, off, age].map(egui::WidgetText::from);
+    table::row(ui, &BELIEFS, [name.into()].into_iter().chain(figures))
 }
 
 fn own_pose(ui: &mut egui::Ui, robot: &SelectedRobot) {
@@ -72,8 +85,8 @@ fn own_pose(ui: &mut egui::Ui, robot: &SelectedRobot) {
     compare(ui, "itself, m", (Some(believed.position), Some(truth.position)), None).on_hover_text(FRAME);
     let off = wrap_angle(believed.heading - truth.heading).abs();
     let [believed, truth, off] = [believed.heading, truth.heading, off].map(degrees);
-    table::row(ui, "heading, °", &["", &believed, "", &truth, &off, ""])
-        .on_hover_text("0 towards the opponents' goal, positive to the left");
+    let cells = ["heading, °", "", &believed, "", &truth, &off, ""];
+    table::row(ui, &BELIEFS, cells).on_hover_text("0 towards the opponents' goal, positive to the left");
 }
 
 fn ball(ui: &mut egui::Ui, robot: &SelectedRobot) {

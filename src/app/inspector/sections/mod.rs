@@ -12,7 +12,6 @@ mod teleoperation;
 use bevy_egui::egui;
 
 use super::subject::SelectedRobot;
-use super::weights::Weights;
 use crate::app::view::input::keyboard::Keyboard;
 use crate::app::view::input::manual_control::ManualControl;
 use crate::app::view::state::{Action, OpenPanels, Piloted};
@@ -22,7 +21,6 @@ use crate::game::requests::Requests;
 /// What the panel may ask for, and what it shows of that.
 pub struct PanelActions<'a> {
     pub requests: &'a mut Requests,
-    pub weights: &'a mut Weights,
     pub piloted: &'a mut Piloted,
     pub levers: &'a mut ManualControl,
     /// What the files say of the robot's values.

@@ -4,14 +4,17 @@ use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
 use super::PanelActions;
+use crate::app::inspector::pending::Pending;
 use crate::app::inspector::schema_kinds::SchemaKind;
 use crate::app::inspector::subject::SelectedRobot;
-use crate::app::inspector::table;
-use crate::app::inspector::weights::Place;
+use crate::app::inspector::table::{self, Column, figures, words};
+use crate::app::inspector::tuner::{RESET, ROW, Tuner};
 use crate::app::view::{colours, format};
+use crate::game::requests::Request;
 use crate::geometry::{Attacking, angle, wrap_angle};
+use crate::ids::Team;
 use crate::robot::{DriveCommand, SteeringIntent};
-use crate::strategy::{Combination, Term};
+use crate::strategy::{Combination, Strategy, Term};
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
     match robot.assemblage() {
@@ -35,16 +38,35 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelAct
     outcome(ui, robot);
 }
 
-/// Widths of what stands to the right of a schema's name.
+/// Widths of what stands beside a schema's name, in points.
 const ICON: f32 = 22.0;
 const FIGURE: f32 = 42.0;
+const VECTOR: [Column; 3] = [words("", 0.0, ""), figures("", FIGURE, ""), figures("", FIGURE, "")];
 const SLIDER: f32 = 62.0;
 const VALUE: f32 = 40.0;
-const RESET: f32 = 20.0;
-/// Height of a schema's row.
-const ROW: f32 = 19.0;
 
-const WEIGHT_TIP: &str = "The schema's weight, for the whole team, from the next tick on";
+const WEIGHT: Tuner = Tuner {
+    range: (0.0, 3.0),
+    step: 0.05,
+    decimals: 2,
+    unit: "",
+    tip: "The schema's weight, for the whole team, from the next tick on",
+    widths: (SLIDER, VALUE),
+};
+
+/// The place of a weight: its team, and the indices of its assemblage and of its term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Place {
+    team: Team,
+    assemblage: usize,
+    term: usize,
+}
+
+impl Place {
+    fn weight(self, strategy: &Strategy) -> Option<f32> {
+        Some(strategy.assemblages.get(self.assemblage)?.terms.get(self.term)?.weight)
+    }
+}
 
 fn schema(
     ui: &mut egui::Ui,
@@ -79,49 +101,29 @@ fn vector_row(ui: &mut egui::Ui, name: &str, vector: Vec2, tint: Color, ends: At
         let way = egui::vec2(on_pitch.x, -on_pitch.y) * (5.0 + 4.0 * vector.length().min(1.0));
         painter.arrow(centre - way, 2.0 * way, egui::Stroke::new(2.0, colours::egui(tint)));
     }
-    let figures = [
+    let cells = [
+        name.to_owned(),
         if idle { "0".into() } else { format::fixed(vector.length(), 2) },
         if idle { String::new() } else { format!("{}°", format::degrees(angle(vector))) },
     ];
-    table::paint_row(ui, rect.with_min_x(rect.left() + ICON), name, &figures, FIGURE);
+    table::paint(ui, rect.with_min_x(rect.left() + ICON), &VECTOR, cells);
     response
 }
 
 fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut PanelActions) {
-    let mut wanted = desk.weights.shown(place, in_force);
-    let filed = desk.weights.in_file(place).unwrap_or(in_force);
-    let differs = (wanted - filed).abs() > 1e-3;
-    let before = wanted;
-    ui.spacing_mut().slider_width = SLIDER;
-    let slider = egui::Slider::new(&mut wanted, 0.0..=3.0)
-        .step_by(0.05)
-        .show_value(false)
-        .clamping(egui::SliderClamping::Edits);
-    let slider = ui.add(slider);
-    if slider.drag_stopped() {
-        // Otherwise it would keep the keyboard to itself.
-        slider.surrender_focus();
-    }
-    if !slider.dragged() {
-        slider.on_hover_text(WEIGHT_TIP);
-    }
-    let value =
-        egui::DragValue::new(&mut wanted).range(0.0..=3.0).speed(0.01).max_decimals(2).min_decimals(2);
-    let value = value.clamp_existing_to_range(false).update_while_editing(false);
-    ui.scope(|ui| {
-        if differs {
-            ui.visuals_mut().override_text_color = Some(colours::egui(colours::CHANGED));
+    let pending = Pending::new(in_force, desk.requests, |request| match *request {
+        Request::SetWeight { team, assemblage, term, weight } => {
+            (place == Place { team, assemblage, term }).then_some(weight)
         }
-        ui.add_sized([VALUE, ROW], value).on_hover_text("Drag, or click to type");
+        _ => None,
     });
-    if differs {
-        let tip = format!("Reset to the file's {}", format::fixed(filed, 2));
-        if ui.add_sized([RESET, ROW], egui::Button::new("⟲").frame(false)).on_hover_text(tip).clicked() {
-            wanted = filed;
-        }
-    }
+    let before = pending.shown();
+    let mut wanted = before;
+    let filed = desk.file.and_then(|plan| place.weight(&plan.strategy)).unwrap_or(in_force);
+    WEIGHT.show(ui, &mut wanted, filed);
     if wanted != before && wanted.is_finite() {
-        desk.weights.ask(place, wanted, desk.requests);
+        let Place { team, assemblage, term } = place;
+        desk.requests.ask(Request::SetWeight { team, assemblage, term, weight: wanted });
     }
 }
 

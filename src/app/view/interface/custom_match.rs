@@ -1,4 +1,4 @@
-//! The form for a match of one's own: who plays, whom one drives, how long, and from which seed.
+//! The form for a custom match: who plays, which robot a person drives, how long, and from which seed.
 
 use bevy::prelude::*;
 use bevy_egui::egui;

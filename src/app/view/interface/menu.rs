@@ -51,7 +51,7 @@ fn against_the_hammerheads() -> Choice {
     }
 }
 
-/// The friendly match, with nobody at the wheel.
+/// The friendly match, which a person watches.
 fn to_watch() -> Choice {
     Choice { half_minutes: Some(5.0), seed: fresh_seed(), ..Choice::default() }
 }

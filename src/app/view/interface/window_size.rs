@@ -14,7 +14,7 @@ pub const NEEDED: Vec2 = Vec2::new(640.0, 400.0);
 /// Room for the window's title and the desktop's own bars, in points.
 const BARS: f32 = 40.0;
 
-/// The pixels of a window that wants to be as large as this, on a screen.
+/// The pixels of a window of a wanted size, on a screen.
 fn fitting(wanted: UVec2, screen: UVec2, pixels_a_point: f32) -> UVec2 {
     let bars = (BARS * pixels_a_point).round() as u32;
     let free = UVec2::new(screen.x, screen.y.saturating_sub(bars)).max(UVec2::ONE);

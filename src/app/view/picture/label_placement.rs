@@ -43,7 +43,7 @@ impl LabelPlacement {
         self.bodies.clear();
     }
 
-    /// Something that labels had better not cover.
+    /// Something that labels should not cover.
     pub fn add_body(&mut self, body: Rect) {
         self.bodies.push(body);
     }

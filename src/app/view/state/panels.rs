@@ -111,6 +111,13 @@ pub struct PanelSizes {
     pub communication: f32,
 }
 
+impl PanelSizes {
+    /// The height of a panel below the pitch.
+    pub fn below(&mut self, panel: Overlay) -> &mut f32 {
+        if panel == Overlay::Communication { &mut self.communication } else { &mut self.radio }
+    }
+}
+
 impl Default for PanelSizes {
     fn default() -> PanelSizes {
         PanelSizes { inspector: 400.0, radio: 246.0, communication: 246.0 }

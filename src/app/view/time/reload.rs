@@ -119,7 +119,7 @@ fn take_over_changes(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::AssetFolder;
+    use crate::data::{AssetFolder, AssetKind};
     use crate::game::{Choice, MatchPlan};
 
     fn text(text: &str) -> Contents {
@@ -191,5 +191,37 @@ mod tests {
         let home = vec!["hammerheads_swap", "hammerheads_2001"];
         assert_eq!(names.collect::<Vec<_>>(), [(Team::Home, home), (Team::Away, vec!["ball_chasers"])]);
         assert!(watched.iter().all(|(_, watch)| watch.taken.iter().all(Option::is_some)));
+    }
+
+    #[test]
+    fn a_changed_file_is_asked_for_and_is_the_file_of_the_match_from_then_on() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("mine.ron");
+        let old =
+            std::fs::read_to_string(assets.file(AssetKind::Strategy, "ball_chasers")).expect("a strategy");
+        std::fs::write(&file, &old).expect("a file");
+        let home = Some(file.to_str().expect("a plain path").to_owned());
+        let plan = MatchPlan::read(&assets, &Choice { home, ..Choice::default() }).unwrap();
+        let name = plan.team(Team::Home).strategy.name.clone();
+        let mut app = App::new();
+        app.init_resource::<Watched>().add_observer(watch_files).add_systems(Update, take_over_changes);
+        app.init_resource::<Requests>().init_resource::<Announcement>().init_resource::<FileError>();
+        app.insert_resource(Session { plan: Some(plan), ..Session::default() })
+            .insert_resource(Folder(assets));
+        app.world_mut().trigger(MatchBegun);
+        std::fs::write(&file, old.replace(&name, "Changed")).expect("a file");
+        (0..2).for_each(|_| app.update());
+        let session = app.world().resource::<Session>();
+        assert_eq!(
+            session.plan.as_ref().map(|plan| plan.team(Team::Home).strategy.name.as_str()),
+            Some("Changed")
+        );
+        let requests = app.world().resource::<Requests>();
+        assert!(
+            requests
+                .iter()
+                .any(|request| matches!(request, Request::ChangeStrategy { team: Team::Home, .. }))
+        );
     }
 }
