@@ -6,6 +6,7 @@
 
 use std::f32::consts::{PI, TAU};
 
+pub use bevy::math::Vec2;
 use bevy::math::ops;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};

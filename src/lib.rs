@@ -77,15 +77,3 @@ pub mod strategy;
 #[cfg(test)]
 mod testing;
 pub mod world;
-
-use bevy::prelude::*;
-
-/// Everything that a match needs, without a window.
-pub fn simulation(app: &mut App) {
-    app.add_plugins((schedule::plugin, world::plugin, comms::plugin, mind::plugin, game::plugin));
-}
-
-/// What a robot needs that is a process of its own: its mind, without a world around it.
-pub fn mind(app: &mut App) {
-    app.add_plugins((schedule::plugin, comms::modules, game::net::plugin, mind::plugin));
-}

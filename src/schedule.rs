@@ -6,7 +6,7 @@ use bevy::prelude::*;
 
 use crate::clock::Clock;
 
-pub(super) fn plugin(app: &mut App) {
+pub(crate) fn plugin(app: &mut App) {
     app.init_resource::<Clock>();
     app.init_schedule(Tick).edit_schedule(Tick, |schedule| {
         schedule.set_executor(SingleThreadedExecutor::new());

@@ -1,5 +1,6 @@
 //! Whole matches and bodies in motion: everything that needs more than one module. One binary, since each links Bevy.
 
+mod architecture;
 mod asset_files;
 mod b3p;
 mod booking;

@@ -37,7 +37,7 @@ pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Window
             ..default()
         },
     ));
-    app.add_plugins((EguiPlugin::default(), crate::simulation, view::plugin, inspector::plugin));
+    app.add_plugins((EguiPlugin::default(), crate::game::simulation, view::plugin, inspector::plugin));
     app.insert_resource(Folder(assets.clone()));
     app.insert_resource(PendingMatch(wanted));
     if let Some(file) = settings::SettingsFile::of_this_person() {

@@ -7,11 +7,11 @@ pub mod tcm;
 
 use bevy::prelude::*;
 
-pub(super) fn plugin(app: &mut App) {
+pub(crate) fn plugin(app: &mut App) {
     app.add_plugins((modules, radio::plugin));
 }
 
 /// The communication modules of robots, whatever carries their datagrams.
-pub(super) fn modules(app: &mut App) {
+pub(crate) fn modules(app: &mut App) {
     app.add_plugins((tcm::plugin, messages::plugin));
 }

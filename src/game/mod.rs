@@ -25,14 +25,17 @@ use crate::game::record::Record;
 use crate::game::requests::{Requests, Script};
 use crate::ids::{MatchEntity, RobotId, Team};
 use crate::rng::Seed;
-use crate::schedule::Tick;
+use crate::schedule::{self, Tick};
 use crate::strategy::Strategies;
 use crate::world::physics::open_world;
 use crate::world::referee::{Calls, MatchState, Phase, Whistles};
+use crate::{comms, mind, world};
 use spawn::{spawn_ball, spawn_mind, spawn_planned};
 
-pub(super) fn plugin(app: &mut App) {
-    app.add_plugins((carry::plugin, requests::plugin, net::plugin, record::plugin));
+/// Everything that a match needs, without a window.
+pub fn simulation(app: &mut App) {
+    let game = (carry::plugin, requests::plugin, net::plugin, record::plugin);
+    app.add_plugins((schedule::plugin, world::plugin, comms::plugin, mind::plugin, game));
 }
 
 /// Ends the match in this world, if there is one, and starts another from the beginning.
@@ -106,7 +109,7 @@ impl Match {
     /// Starts a match in an app of its own.
     pub fn new(plan: &MatchPlan) -> Match {
         let mut app = App::new();
-        app.add_plugins(crate::simulation);
+        app.add_plugins(simulation);
         app.finish();
         app.cleanup();
         start_match(app.world_mut(), plan);

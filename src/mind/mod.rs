@@ -9,6 +9,6 @@ pub mod world_model;
 
 use bevy::prelude::*;
 
-pub(super) fn plugin(app: &mut App) {
+pub(crate) fn plugin(app: &mut App) {
     app.add_plugins((world_model::plugin, teamwork::plugin, behaviour::plugin, motor::plugin));
 }

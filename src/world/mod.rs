@@ -10,7 +10,7 @@ pub mod sense;
 
 use bevy::prelude::*;
 
-pub(super) fn plugin(app: &mut App) {
+pub(crate) fn plugin(app: &mut App) {
     app.add_plugins((
         physics::plugin,
         sense::plugin,

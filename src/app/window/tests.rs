@@ -57,7 +57,7 @@ impl LaidOutWindow {
         app.add_plugins(WindowPlugin { primary_window: Some(window), ..default() });
         app.init_asset::<Mesh>().init_asset::<ColorMaterial>().init_asset::<GizmoAsset>();
         app.init_resource::<EguiUserTextures>().init_resource::<EguiWantsInput>();
-        app.add_plugins((crate::simulation, view::plugin, inspector::panels));
+        app.add_plugins((crate::game::simulation, view::plugin, inspector::panels));
         app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(16)));
         app.insert_resource(Folder(assets()));
         let context = EguiContext::default();

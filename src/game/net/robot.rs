@@ -25,6 +25,7 @@ use crate::robot::handling::{Grip, Handling};
 use crate::robot::{Head, HeadIntent, KickIntent, Odometry, OffPitch, Percepts, RobotState, SteeringIntent};
 use crate::schedule::Tick;
 use crate::strategy::{Activity, Role};
+use crate::{comms, mind, schedule};
 
 /// How often a robot that waits looks whether it is to stop.
 const LOOK: Duration = Duration::from_millis(100);
@@ -293,7 +294,8 @@ impl RobotProcess {
 /// A world with nothing but the mind of a robot.
 fn mind(plan: &MatchPlan, id: RobotId, carrier: UdpCarrier) -> (App, Entity) {
     let mut app = App::new();
-    app.add_plugins(crate::mind);
+    // Its mind, without a world around it.
+    app.add_plugins((schedule::plugin, comms::modules, super::plugin, mind::plugin));
     app.finish();
     app.cleanup();
     let entity = start_mind(app.world_mut(), plan, id);

@@ -10,9 +10,9 @@
 use serde::{Deserialize, Serialize};
 use smallvec::smallvec;
 
+use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
 use super::members::{Bidder, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
-use super::{Cast, ColumnValues, Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::geometry::{angle, wrap_angle};
 use crate::ids::PlayerNumber;

@@ -7,8 +7,8 @@
 use serde::{Deserialize, Serialize};
 use smallvec::smallvec;
 
+use super::knowledge::{Cast, Duty, Knowledge};
 use super::members::{Distribution, Member, me, members, reassignment};
-use super::{Cast, Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 

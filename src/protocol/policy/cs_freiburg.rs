@@ -7,9 +7,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
 use super::members::{Member, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
-use super::{Cast, ColumnValues, Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 

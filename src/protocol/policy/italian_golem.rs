@@ -7,9 +7,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
 use super::members::{Members, bidders, by_importance, first_to_gain, me, members, reassignment};
 use super::places::{Places, ball, nearness};
-use super::{Cast, ColumnValues, Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 

@@ -1,9 +1,9 @@
 //! The robots of the cast, what they bid, and how a new distribution of duties becomes a reassignment.
 
-use bevy::prelude::Vec2;
+use crate::geometry::Vec2;
 use smallvec::SmallVec;
 
-use super::{Cast, ColumnValues, Duty, Knowledge};
+use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
 use crate::ids::PlayerNumber;
 use crate::protocol::role_swap::Reassignment;
 
@@ -33,7 +33,7 @@ pub(super) type Distribution = SmallVec<[(Member, Duty); 4]>;
 /// The members that were heard of lately.
 pub(super) fn members(cast: &Cast, knowledge: &Knowledge) -> Members {
     let players = knowledge.players.iter().filter(|player| player.position.is_finite());
-    let member = |player: &super::Player| {
+    let member = |player: &super::knowledge::Player| {
         let duty = cast.duty(player.role)?;
         Some(Member { number: player.number, duty, position: player.position, heading: player.heading })
     };

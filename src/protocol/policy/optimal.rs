@@ -7,9 +7,9 @@ use pathfinding::kuhn_munkres::kuhn_munkres_min;
 use pathfinding::matrix::Matrix;
 use serde::{Deserialize, Serialize};
 
+use super::knowledge::{Cast, Knowledge};
 use super::members::{Distribution, Member, duties, members, reassignment};
 use super::places::{Places, ball};
-use super::{Cast, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 

@@ -1,10 +1,10 @@
 //! Where a forward, a floater and a halfback would like to be, given the ball. The paper shows such places in its figures
 //! (offensive support in section VI-C) and gives no numbers: these are ours.
 
-use bevy::prelude::Vec2;
+use crate::geometry::Vec2;
 use serde::{Deserialize, Serialize};
 
-use super::{Duty, Knowledge};
+use super::knowledge::{Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 
 /// The places, relative to ball and goals.

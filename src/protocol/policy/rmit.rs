@@ -7,9 +7,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::knowledge::{Cast, Duty, Knowledge};
 use super::members::{by_importance, first_to_gain, members, reassignment};
 use super::places::ball;
-use super::{Cast, Duty, Knowledge};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 

@@ -4,6 +4,9 @@ mod properties;
 mod utilities;
 mod words;
 
+use crate::geometry::Vec2;
+use crate::ids::PlayerNumber;
+use crate::protocol::role_swap::RoleIndex;
 use smallvec::smallvec;
 
 use super::*;

@@ -3,8 +3,13 @@
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::{RoleIndex, Sequence};
 use crate::ids::PlayerNumber;
+
+/// A role, as an index into the strategy's roles.
+pub type RoleIndex = u8;
+
+/// Identifies an initiator's attempt: a sequence number in the paper, an epoch in the hardened version.
+pub type Sequence = u32;
 
 /// The role of every robot of a team, by number.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

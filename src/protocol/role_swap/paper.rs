@@ -7,9 +7,9 @@
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::{
-    Assignment, Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Phase, Reassignment,
-    RoleIndex, Sequence, Timer, participants,
+use super::assignment::{Assignment, Reassignment, RoleIndex, Sequence};
+use super::steps::{
+    Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Phase, Timer, participants,
 };
 use crate::ids::PlayerNumber;
 

@@ -7,9 +7,9 @@ use std::fmt;
 
 use bevy::prelude::Vec2;
 
-use super::state::Phase;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
+use crate::world::referee::phase::Phase;
 
 /// Why the referee puts the ball somewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

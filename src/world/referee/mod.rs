@@ -2,7 +2,9 @@
 //! carried out by [`crate::game`], as people around a pitch do.
 
 mod decision;
+mod followed;
 mod orders;
+mod phase;
 mod restraints;
 mod rulebook;
 mod rules;
@@ -14,13 +16,15 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 
 pub use decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
+pub use followed::BoxStatement;
 pub use orders::orders_of;
+pub use phase::Phase;
 pub use restraints::Restraints;
 pub use rulebook::{
     BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,
 };
-pub use rules::{Laws, Observation, RULES, Rule, Word, follow, referee};
-pub use state::{MatchState, Phase, Removal};
+pub use rules::{Laws, Observation, RULES, Rule, follow, referee};
+pub use state::{MatchState, Removal};
 
 use crate::clock::Clock;
 use crate::ids::RobotId;
@@ -73,7 +77,8 @@ pub(crate) fn judge(
             // Nothing is decided before the box has spoken.
             Some(news) => {
                 if let Some(view) = &news.view {
-                    let word = Word { view, silence: news.silence(&clock), is_lost: news.is_lost(&clock) };
+                    let word =
+                        BoxStatement { view, silence: news.silence(&clock), is_lost: news.is_lost(&clock) };
                     follow(&word, &laws, &scene.observation(), dt, &mut state, &mut calls.0);
                 }
             }

@@ -1,10 +1,11 @@
 //! Which state of the league's six the referee tells each robot to be in.
 
 use super::rulebook::{KickOffStyle, RuleBook};
-use super::state::{MatchState, Phase};
+use super::state::MatchState;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
 use crate::robot::{Orders, RobotState};
+use crate::world::referee::phase::Phase;
 
 /// The orders of a robot under these circumstances, with the kick-off place that it was given.
 pub fn orders_of(robot: RobotId, state: &MatchState, book: &RuleBook, place: Option<Pose>) -> Orders {

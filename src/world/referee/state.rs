@@ -3,43 +3,15 @@
 //! Only [`super::rules`] change a [`MatchState`]; everyone else reads it. The clock stops outside [`Phase::Playing`], so a
 //! half has its full playing time. (In 2001 it ran on; stopping it makes matches with many goals comparable.)
 
-use std::fmt;
-
 use bevy::prelude::{Resource, Vec2};
 
 use super::decision::RemovalReason;
+use super::followed::Following;
+use super::phase::Phase;
 use super::restraints::Restraints;
 use super::rulebook::RuleBook;
-use super::rules::Following;
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
-
-/// The phases of a match in their order, named as in the league's game controller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Phase {
-    /// A kick-off is owed. It never outlasts the call that owes it, so it is seen only before the first one.
-    Initial,
-    /// The robots have been put on their kick-off positions, or walk there.
-    Ready,
-    /// All stand still.
-    Set,
-    /// The ball is in play and the clock runs.
-    Playing,
-    /// Over for good.
-    Finished,
-}
-
-impl fmt::Display for Phase {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Phase::Initial => "initial",
-            Phase::Ready => "ready",
-            Phase::Set => "set",
-            Phase::Playing => "playing",
-            Phase::Finished => "finished",
-        })
-    }
-}
 
 /// A robot that is off the field.
 #[derive(Clone, Copy, Debug, PartialEq)]

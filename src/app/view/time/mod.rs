@@ -90,7 +90,7 @@ mod tests {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, AssetPlugin::default(), StatesPlugin));
         app.init_asset::<Mesh>().init_asset::<ColorMaterial>();
-        app.add_plugins((crate::simulation, crate::app::view::played));
+        app.add_plugins((crate::game::simulation, crate::app::view::played));
         app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
         app.insert_resource(Folder(assets()))
             .insert_resource(PendingMatch(Some(MatchRequest::Match(choice.clone()))));

@@ -94,7 +94,7 @@ mod tests {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, AssetPlugin::default(), StatesPlugin));
         app.init_asset::<Mesh>().init_asset::<ColorMaterial>();
-        app.add_plugins((crate::simulation, crate::app::view::played));
+        app.add_plugins((crate::game::simulation, crate::app::view::played));
         app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
         app.insert_resource(Folder(AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"))));
         app.insert_resource(PendingMatch(Some(MatchRequest::Match(choice))));

@@ -1,5 +1,8 @@
 //! What holds in every scene, with roles doubled, missing or wrong and players not heard of.
 
+use crate::geometry::Vec2;
+use crate::ids::PlayerNumber;
+use crate::protocol::role_swap::RoleIndex;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;

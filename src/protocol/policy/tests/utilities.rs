@@ -1,6 +1,8 @@
 //! Scenes for the policies that exchange values.
 
 use super::*;
+use crate::geometry::Vec2;
+use crate::protocol::role_swap::RoleIndex;
 
 fn freiburg() -> Policy {
     Policy::CsFreiburg(CsFreiburg::default())

@@ -2,13 +2,15 @@
 
 use bevy::prelude::Vec2;
 
+use super::returns;
 use super::walking::{is_kickers_place, misplaced};
-use super::{Laws, Observation, returns};
 use crate::geometry::{Attacking, Pose};
 use crate::ids::RobotId;
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{KickOffStyle, ReturnPlace, RuleBook};
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation};
+use crate::world::referee::state::MatchState;
 
 /// Metres by which the ball may be off the centre spot at a kick-off. ASSUMPTION.
 const ON_SPOT: f32 = 0.01;

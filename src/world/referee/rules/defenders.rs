@@ -6,11 +6,12 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, is_in_own_area, is_over, send_off};
 use crate::ids::{RobotId, Team};
 use crate::world::referee::decision::{Decision, RemovalReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::DefenderRule;
-use crate::world::referee::state::{Defender, MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
+use crate::world::referee::state::{Defender, MatchState};
 
 /// Takes later defenders off the field whose time is over.
 pub(super) fn second_defender(

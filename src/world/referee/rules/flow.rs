@@ -4,10 +4,12 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, ROUNDING, by_hand, is_over, returns};
+use super::{by_hand, returns};
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{KickOffStyle, RuleBook};
-use crate::world::referee::state::{KickOffShot, MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, ROUNDING, is_over};
+use crate::world::referee::state::{KickOffShot, MatchState};
 
 /// Leads from ready over set to play, and tells how many seconds of the sample were played.
 pub(super) fn phases(

@@ -6,8 +6,9 @@ use super::table::Table;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
 use crate::world::referee::decision::Decision;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{KickOffStyle, RuleBook};
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::state::MatchState;
 
 /// The field of the four-legged league.
 pub fn four_legged_pitch() -> Pitch {

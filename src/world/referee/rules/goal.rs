@@ -4,11 +4,12 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, ROUNDING, placed_ball};
 use crate::geometry::Attacking;
 use crate::ids::Team;
 use crate::world::referee::decision::{Decision, NoGoalReason};
-use crate::world::referee::state::{KickOffShot, MatchState, Phase};
+use crate::world::referee::phase::Phase;
+use crate::world::referee::rules::observation::{Laws, Observation, ROUNDING, placed_ball};
+use crate::world::referee::state::{KickOffShot, MatchState};
 
 /// Gives the goal to the team that attacks it, and a kick-off to the other one.
 ///

@@ -4,11 +4,12 @@
 //! area, while inside only a longer time counts. Who lets the ball go for a shorter time than it has held it goes on
 //! holding it.
 
-use super::{Laws, Observation, is_in_own_area, is_over, send_off};
 use crate::ids::RobotId;
 use crate::world::referee::decision::{Decision, RemovalReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::RuleBook;
-use crate::world::referee::state::{Hold, MatchState, Phase, Spell};
+use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
+use crate::world::referee::state::{Hold, MatchState, Spell};
 
 /// Takes off a robot that holds the ball too long or carries it too far: a field player for the time of a removal, a
 /// goalkeeper for none. The ball stays where it is.

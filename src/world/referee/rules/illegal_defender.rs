@@ -1,10 +1,11 @@
 //! Nobody but the goalkeeper in the own penalty area, by the rules of the four-legged league.
 
-use super::{Laws, Observation, is_in_own_area, is_over, send_off};
 use crate::ids::RobotId;
 use crate::world::referee::decision::{Decision, RemovalReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{DefenderRule, RuleBook};
-use crate::world::referee::state::{Defender, MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
+use crate::world::referee::state::{Defender, MatchState};
 
 /// Seconds within which a robot that opponents pushed in has to be out again. ASSUMPTION: the rules give none.
 const WAY_OUT: f32 = 5.0;

@@ -1,9 +1,10 @@
 //! Leaving the field, where no walls keep robots in.
 
-use super::{Laws, Observation, send_off};
 use crate::ids::RobotId;
 use crate::world::referee::decision::{Decision, RemovalReason};
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::phase::Phase;
+use crate::world::referee::rules::observation::{Laws, Observation, send_off};
+use crate::world::referee::state::MatchState;
 
 /// Takes robots off whose centre is too far beyond the lines. A robot may follow the ball over a line.
 pub(super) fn leaving(

@@ -8,12 +8,13 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, placed_ball, standing};
 use crate::geometry::Attacking;
 use crate::ids::Team;
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{Out, ThrowIn};
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, placed_ball, standing};
+use crate::world::referee::state::MatchState;
 
 /// Puts a ball that is out back onto the field.
 pub(super) fn out(

@@ -6,10 +6,11 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, is_over, placed_ball, standing};
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{RuleBook, Stuck};
-use crate::world::referee::state::{Anchor, MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, is_over, placed_ball, standing};
+use crate::world::referee::state::{Anchor, MatchState};
 
 /// Moves a stuck ball. While all spots are taken it stays, and goes as soon as one is free.
 pub(super) fn no_progress(

@@ -4,13 +4,15 @@ use bevy::prelude::Vec2;
 use proptest::prelude::*;
 
 use super::four_legged_table::{four_legged_book, four_legged_pitch};
+use super::referee;
 use super::table::{BALL_RADIUS, pitch};
-use super::{Laws, Observation, referee};
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
 use crate::world::referee::decision::Decision;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::RuleBook;
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation};
+use crate::world::referee::state::MatchState;
 
 /// One sample: the ball, the robots and the seconds since the last one.
 type Sample = (Vec2, Vec<(RobotId, Vec2)>, f64);

@@ -6,11 +6,12 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, is_in_own_area, is_over, send_off};
 use crate::ids::RobotId;
 use crate::world::referee::decision::{Decision, RemovalReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{Pushing, RuleBook};
-use crate::world::referee::state::{MatchState, Phase, Spell};
+use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
+use crate::world::referee::state::{MatchState, Spell};
 
 /// Takes off a robot that has pushed opponents for too long.
 pub(super) fn pushing(

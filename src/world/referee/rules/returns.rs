@@ -4,12 +4,13 @@ use std::f32::consts::FRAC_PI_2;
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, is_over, placed_ball, standing};
 use crate::geometry::{Attacking, Pose};
 use crate::ids::RobotId;
 use crate::world::referee::decision::Decision;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::ReturnPlace;
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, is_over, placed_ball, standing};
+use crate::world::referee::state::MatchState;
 
 /// Counts the time of removed robots down, and lets them return while the ball is in play.
 pub(super) fn returns(
@@ -105,6 +106,7 @@ mod tests {
     use crate::world::referee::rules::table::{KICK_OFF_SECONDS, Table};
 
     use super::*;
+    use crate::world::referee::rules::observation::send_off;
 
     const IN_WEST: Vec2 = Vec2::new(-4.0, 0.5);
     const IN_WEST_TOO: Vec2 = Vec2::new(-4.0, -0.5);
@@ -219,7 +221,7 @@ mod tests {
         for hertz in [20, 60, 240] {
             let mut table = Table::four_legged_playing(hertz);
             let mut made = Vec::new();
-            super::super::send_off(&mut table.state, &mut made, HOME_1, 0.0, RemovalReason::LocalStuck);
+            send_off(&mut table.state, &mut made, HOME_1, 0.0, RemovalReason::LocalStuck);
             assert_eq!(made.len(), 1);
             table.take_off(HOME_1);
             table.run(1.0 / f64::from(hertz));

@@ -4,12 +4,15 @@
 use bevy::prelude::Vec2;
 
 use super::progress::free_spot;
-use super::{Laws, Observation, is_over, placed_ball, send_off, standing};
 use crate::geometry::Attacking;
 use crate::ids::Team;
 use crate::world::referee::decision::{Decision, PlacementReason, RemovalReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{LocalGlobal, RuleBook, Stuck};
-use crate::world::referee::state::{Anchor, MatchState, Phase};
+use crate::world::referee::rules::observation::{
+    Laws, Observation, is_over, placed_ball, send_off, standing,
+};
+use crate::world::referee::state::{Anchor, MatchState};
 
 /// Seconds since the last touch during which robots still count as being at the ball. ASSUMPTION: the rules speak of a
 /// situation that does not change, and leave it to the referee to see one.

@@ -3,11 +3,12 @@
 use bevy::prelude::Vec2;
 
 use super::four_legged_table::four_legged_line_up;
-use super::{Laws, Observation, referee};
+use super::referee;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{Goal, PenaltyArea, Pitch, Walls};
 use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::rulebook::RuleBook;
+use crate::world::referee::rules::observation::{Laws, Observation};
 use crate::world::referee::state::MatchState;
 
 /// Seconds from the placing of the robots to play, with the default book.

@@ -1,9 +1,10 @@
 //! Who touches the ball: what other rules ask about the past of the ball, kept in one place.
 
-use super::{Laws, Observation};
 use crate::ids::Team;
 use crate::world::referee::decision::Decision;
-use crate::world::referee::state::{KickOffShot, MatchState, Phase};
+use crate::world::referee::phase::Phase;
+use crate::world::referee::rules::observation::{Laws, Observation};
+use crate::world::referee::state::{KickOffShot, MatchState};
 
 /// Keeps the last touch, the time since, and whether the shot of the kick-off is over. It is over when a robot of the
 /// team that kicked off touches the ball after the whole ball has left the centre circle.

@@ -6,11 +6,12 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Laws, Observation, is_in_own_area, is_over};
 use crate::ids::RobotId;
 use crate::world::referee::decision::Decision;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{KickOffStyle, RuleBook};
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over};
+use crate::world::referee::state::MatchState;
 
 /// Seconds for which all have to stand before the referee believes it. ASSUMPTION.
 const SETTLED: f32 = 1.0;

@@ -8,7 +8,7 @@ use super::table::{KICK_OFF_SECONDS, Table};
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
 use crate::world::referee::decision::{Decision, NoGoalReason, PlacementReason, RemovalReason};
-use crate::world::referee::state::Phase;
+use crate::world::referee::phase::Phase;
 
 #[test]
 fn a_match_with_goals_in_both_halves_is_scored_for_the_right_teams() {

@@ -1,11 +1,13 @@
 //! Halves and ends are the box's: they may also go back, as in extra time, in a new match, or when a click is undone.
 
-use super::super::{Laws, Observation, by_hand};
+use super::super::by_hand;
 use crate::geometry::Attacking;
 use crate::world::gamecontroller::referee_box::View;
 use crate::world::referee::decision::Decision;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::KickOffStyle;
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation};
+use crate::world::referee::state::MatchState;
 
 /// Takes half and ends over, and tells whether the ends have changed.
 pub(super) fn follow(view: &View, state: &mut MatchState, decisions: &mut Vec<Decision>) -> bool {

@@ -13,41 +13,18 @@ mod set_plays;
 #[cfg(test)]
 mod tests;
 
-use bevy::prelude::Vec2;
-
-use super::{Laws, Observation, out, placed_ball, touches};
+use super::{out, touches};
 use crate::ids::Team;
-use crate::world::gamecontroller::control::SetPlay;
 use crate::world::gamecontroller::referee_box::View;
 use crate::world::referee::decision::Decision;
-use crate::world::referee::state::{MatchState, Phase};
-
-/// What a referee box has said last.
-#[derive(Clone, Copy, Debug)]
-pub struct Word<'a> {
-    pub view: &'a View,
-    /// Seconds since it said so.
-    pub silence: f64,
-    /// Whether it has been silent for so long that it is lost.
-    pub is_lost: bool,
-}
-
-/// What is remembered of a box that is followed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::world::referee) struct Following {
-    /// The robots have been put on their side of the pitch for these ends.
-    lined_up: bool,
-    /// Seconds for which the box has said that a match that may be over is finished.
-    finished_for: f64,
-    /// The set play that runs, who has it, and where the ball was put for it.
-    set_play: Option<(SetPlay, Team, Vec2)>,
-    /// Who takes part in the penalty kick that runs.
-    penalty_kick: Option<penalty_kick::Duel>,
-}
+use crate::world::referee::followed::BoxStatement;
+use crate::world::referee::phase::Phase;
+use crate::world::referee::rules::observation::{Laws, Observation, placed_ball};
+use crate::world::referee::state::MatchState;
 
 /// Does what a referee box says, `dt` seconds after the last look.
 pub fn follow(
-    word: &Word,
+    word: &BoxStatement,
     laws: &Laws,
     observation: &Observation,
     dt: f64,

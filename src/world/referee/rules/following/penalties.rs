@@ -1,10 +1,11 @@
 //! The penalties of a box, each served as the league has it.
 
-use super::super::{Laws, Observation, returns};
+use super::super::returns;
 use crate::ids::RobotId;
 use crate::world::gamecontroller::referee_box::View;
 use crate::world::gamecontroller::serving::Serving;
 use crate::world::referee::decision::{Decision, RemovalReason};
+use crate::world::referee::rules::observation::{Laws, Observation};
 use crate::world::referee::state::MatchState;
 
 pub(super) fn follow(

@@ -3,22 +3,15 @@
 
 use bevy::prelude::Vec2;
 
-use super::super::{Laws, Observation};
 use crate::geometry::{Attacking, Pose};
 use crate::ids::{RobotId, Team};
 use crate::world::gamecontroller::referee_box::View;
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::followed::Duel;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::RuleBook;
-use crate::world::referee::state::{MatchState, Phase};
-
-/// The two that take part. One that is off the field is missing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Duel {
-    kicker: Option<RobotId>,
-    keeper: Option<RobotId>,
-    /// The ball has been in play.
-    begun: bool,
-}
+use crate::world::referee::rules::observation::{Laws, Observation};
+use crate::world::referee::state::MatchState;
 
 impl Duel {
     /// The team's goalkeeper keeps, and of the others the one that is nearest to the ball kicks; a robot that is alone does

@@ -2,17 +2,19 @@
 
 use bevy::prelude::Vec2;
 
-use super::super::{Laws, Observation, by_hand};
-use super::Word;
+use super::super::by_hand;
 use super::ends::robots_placed;
 use crate::world::gamecontroller::control::State;
 use crate::world::gamecontroller::referee_box::{GONE_AFTER, View};
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::followed::BoxStatement;
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::KickOffStyle;
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation};
+use crate::world::referee::state::MatchState;
 
 pub(super) fn follow(
-    word: &Word,
+    word: &BoxStatement,
     laws: &Laws,
     observation: &Observation,
     dt: f64,
@@ -53,7 +55,7 @@ fn phase_of(view: &View) -> Option<Phase> {
 
 /// Whether the box is done with the match: it has said for long enough that a match that may be over is finished, or has
 /// said so and fallen silent.
-fn is_done(word: &Word, dt: f64, state: &mut MatchState) -> bool {
+fn is_done(word: &BoxStatement, dt: f64, state: &mut MatchState) -> bool {
     let Some(patience) = word.view.done_after() else {
         state.following.finished_for = 0.0;
         return false;

@@ -3,14 +3,16 @@
 
 use bevy::prelude::Vec2;
 
-use super::super::{Laws, Observation, placed_ball, returns, standing};
+use super::super::returns;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::world::gamecontroller::control::SetPlay;
 use crate::world::gamecontroller::referee_box::View;
 use crate::world::referee::decision::{Decision, PlacementReason};
+use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::ReturnPlace;
-use crate::world::referee::state::{MatchState, Phase};
+use crate::world::referee::rules::observation::{Laws, Observation, placed_ball, standing};
+use crate::world::referee::state::MatchState;
 
 /// Metres that a robot needs at most to come to rest. ASSUMPTION: a third of a metre from a metre a second.
 const BRAKING: f32 = 0.35;

@@ -1,6 +1,8 @@
 use super::*;
 use crate::geometry::Attacking;
+use crate::geometry::Vec2;
 use crate::ids::RobotId;
+use crate::world::gamecontroller::control::SetPlay;
 use crate::world::gamecontroller::control::{GamePhase, Penalty, State};
 use crate::world::gamecontroller::referee_box::Penalised;
 use crate::world::referee::decision::{PlacementReason, RemovalReason};
@@ -27,11 +29,11 @@ fn view(state: State) -> View {
 
 /// What is decided at one look at the table.
 fn hear(table: &mut Table, view: &View) -> Vec<Decision> {
-    look(table, &Word { view, silence: 0.0, is_lost: false }, 0.02)
+    look(table, &BoxStatement { view, silence: 0.0, is_lost: false }, 0.02)
 }
 
 /// What is decided at one look at the table, so many seconds after the last one.
-fn look(table: &mut Table, word: &Word, dt: f64) -> Vec<Decision> {
+fn look(table: &mut Table, word: &BoxStatement, dt: f64) -> Vec<Decision> {
     let laws = Laws { pitch: &table.pitch, book: &table.book, ball_radius: 0.11 };
     let mut decisions = Vec::new();
     let observation = Observation::of(table.ball, &table.robots);
@@ -133,7 +135,8 @@ fn a_match_goes_on_after_its_second_half_for_as_long_as_the_box_wants() {
     let level = second(State::Finished);
     let won = View { score: [1, 0], ..level.clone() };
     let run = |table: &mut Table, view: &View, seconds: u32| {
-        (0..seconds).for_each(|_| drop(look(table, &Word { view, silence: 0.5, is_lost: false }, 1.0)));
+        (0..seconds)
+            .for_each(|_| drop(look(table, &BoxStatement { view, silence: 0.5, is_lost: false }, 1.0)));
         table.state.phase
     };
     assert_eq!(run(&mut table, &won, 19), Phase::Initial);
@@ -143,7 +146,8 @@ fn a_match_goes_on_after_its_second_half_for_as_long_as_the_box_wants() {
     assert_eq!(run(&mut table, &extra, 1), Phase::Playing);
     assert_eq!((table.state.half, table.state.home_attacks), (1, Attacking::East));
     assert_eq!(run(&mut table, &View { game_phase: GamePhase::ExtraTime, ..won }, 20), Phase::Initial);
-    let end = look(&mut table, &Word { view: &second(State::Finished), silence: 0.5, is_lost: false }, 1.0);
+    let end =
+        look(&mut table, &BoxStatement { view: &second(State::Finished), silence: 0.5, is_lost: false }, 1.0);
     assert_eq!(end, [], "nor has a level match an end");
     let won = View { score: [2, 0], ..level };
     assert_eq!(run(&mut table, &won, 1), Phase::Finished);
@@ -154,8 +158,11 @@ fn a_match_goes_on_after_its_second_half_for_as_long_as_the_box_wants() {
 fn a_box_that_falls_silent_after_the_end_ends_the_match() {
     let mut table = playing();
     let finished = second(State::Finished);
-    assert_eq!(look(&mut table, &Word { view: &finished, silence: 4.9, is_lost: true }, 0.1).len(), 3);
-    let end = look(&mut table, &Word { view: &finished, silence: 5.1, is_lost: true }, 0.1);
+    assert_eq!(
+        look(&mut table, &BoxStatement { view: &finished, silence: 4.9, is_lost: true }, 0.1).len(),
+        3
+    );
+    let end = look(&mut table, &BoxStatement { view: &finished, silence: 5.1, is_lost: true }, 0.1);
     assert_eq!(end, [Decision::PhaseChanged(Phase::Finished), Decision::MatchFinished { score: [0, 0] }]);
 }
 
@@ -167,7 +174,7 @@ fn all_stand_while_play_is_stopped_or_the_box_is_lost_and_the_clock_may_run_over
     assert_eq!((table.state.time_left, table.state.played), (-3.0, 0.0));
     hear(&mut table, &view(State::Playing));
     assert!(!table.state.restraints.stopped && table.state.played > 0.0);
-    look(&mut table, &Word { view: &view(State::Playing), silence: 2.1, is_lost: true }, 0.02);
+    look(&mut table, &BoxStatement { view: &view(State::Playing), silence: 2.1, is_lost: true }, 0.02);
     assert!(table.state.restraints.stopped);
 }
 
