@@ -9,19 +9,19 @@ use crate::robot::RobotKind;
 use crate::strategy::KickOff;
 use crate::world::physics::Footprint;
 
-/// What stands on the pitch at a kick-off.
+/// What stands on the pitch at a kick-off; a strategy by itself knows of no ball.
 pub(super) struct LineUp {
     robot: Footprint,
-    ball: Footprint,
+    ball: Option<Footprint>,
     walls: Footprint,
     pitch: Pitch,
 }
 
 impl LineUp {
-    pub(super) fn new(kind: &RobotKind, ball: &BallKind, pitch: &Pitch) -> LineUp {
+    pub(super) fn new(kind: &RobotKind, ball: Option<&BallKind>, pitch: &Pitch) -> LineUp {
         LineUp {
             robot: Footprint::of_robot(kind),
-            ball: Footprint::of_ball(ball),
+            ball: ball.map(Footprint::of_ball),
             walls: Footprint::of_walls(pitch),
             pitch: pitch.clone(),
         }
@@ -48,7 +48,8 @@ impl LineUp {
         if self.robot.overlaps(own, &self.walls, Pose::default()) {
             return Some("would stand in a wall".into());
         }
-        if self.robot.overlaps(own, &self.ball, Pose::default()) {
+        let in_ball = |ball: &Footprint| self.robot.overlaps(own, ball, Pose::default());
+        if self.ball.as_ref().is_some_and(in_ball) {
             return Some("would stand in the ball".into());
         }
         if own.position.x + self.robot.front() > 0.0 {
@@ -76,7 +77,7 @@ mod tests {
         let place = |(x, y): &(f32, f32)| Vec2::new(*x, *y);
         let kick_off =
             KickOff { ours: vec![Vec2::new(-1.0, 0.0)], theirs: theirs.iter().map(place).collect() };
-        let fault = LineUp::new(&cye(), &BALL, &pitch()).fault(&kick_off);
+        let fault = LineUp::new(&cye(), Some(&BALL), &pitch()).fault(&kick_off);
         fault.map(|(field, message)| format!("{field}: {message}"))
     }
 

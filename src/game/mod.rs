@@ -14,6 +14,7 @@ mod team;
 use bevy::prelude::*;
 pub(crate) use files::{checked, file_named, read_addresses};
 pub use plan::{Choice, DEFAULT_MATCH, MatchFile, MatchPlan};
+pub(crate) use team::read_strategy_alone;
 pub use team::{TeamFile, TeamPlan};
 
 pub use situation::{Placed, Situation};

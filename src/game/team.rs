@@ -1,14 +1,15 @@
 //! One side of a match: what its files are, and the team that they come to.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::files::{checked, file_named};
 use super::line_up::LineUp;
 use super::plan::MatchPlan;
-use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
+use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source};
 use crate::ids::Team;
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
@@ -118,7 +119,42 @@ fn read_strategy(
             let message = format!("cannot be played by a `{}`: add it here if it can", names.robot);
             Err((Field::root().key("robot_kinds"), message))
         })
-        .require(|strategy| LineUp::new(kind, ball, pitch).fault(&strategy.kick_off).map_or(Ok(()), Err))
+        .require(|strategy| lines_up(strategy, &LineUp::new(kind, Some(ball), pitch)))
+}
+
+/// Reads a strategy that no match has chosen. Robots of each of its kinds must find room in its places for a kick-off, on the
+/// pitch among the assets that it was written for, or on the one whose size is nearest to that.
+///
+/// # Errors
+/// The first fault, with its place.
+pub(crate) fn read_strategy_alone(assets: &AssetFolder, path: &Path) -> Result<Strategy, DataError> {
+    let strategy = Strategy::read(assets, path, None).strategy?;
+    let pitches = sound::<Pitch>(assets, AssetKind::Pitch, assets.names(AssetKind::Pitch), Pitch::fault);
+    let missed = |pitch: &Pitch| {
+        let size = 2.0 * pitch.half_size();
+        strategy.pitch.map_or(-size.length(), |drawn| drawn.distance(size))
+    };
+    let Some(pitch) = pitches.min_by(|a, b| missed(a).total_cmp(&missed(b))) else { return Ok(strategy) };
+    let kinds = sound(assets, AssetKind::Robot, strategy.robot_kinds, RobotKind::fault);
+    let reading = Strategy::read(assets, path, Some(&pitch));
+    let checked = kinds.fold(reading, |reading, kind| {
+        reading.require(|strategy| lines_up(strategy, &LineUp::new(&kind, None, &pitch)))
+    });
+    checked.strategy
+}
+
+/// Those of some assets that are there and sound; what is wrong with another one is not this file's fault.
+fn sound<T: DeserializeOwned>(
+    assets: &AssetFolder,
+    kind: AssetKind,
+    names: Vec<String>,
+    fault: fn(&T) -> Option<Fault>,
+) -> impl Iterator<Item = T> {
+    names.into_iter().filter_map(move |name| checked(&assets.file(kind, &name), fault).ok())
+}
+
+fn lines_up(strategy: &Strategy, line_up: &LineUp) -> Result<(), (Field, String)> {
+    line_up.fault(&strategy.kick_off).map_or(Ok(()), Err)
 }
 
 fn give_roles(strategy: &mut Strategy, roles: &[(u8, String)]) -> Result<(), String> {

@@ -34,6 +34,8 @@ use teamwork::Teamwork;
 pub struct Strategy {
     pub name: String,
     pub description: String,
+    /// Length and width in metres of the pitch that its file was written for.
+    pub pitch: Option<Vec2>,
     pub robot_kinds: Vec<String>,
     pub roles: Vec<RoleSpec>,
     /// Index into `roles` for each robot at kick-off, by number.

@@ -119,6 +119,56 @@ fn a_name_given_twice_is_told_at_its_second_place_in_every_kind_of_file() {
 }
 
 #[test]
+fn places_for_a_kick_off_are_checked_in_a_strategy_by_itself_for_its_robots_on_its_pitch() {
+    let own = Own::new();
+    let shipped = shipped(AssetKind::Strategy, "ball_chasers");
+    let line = shipped.lines().position(|line| line.contains("theirs: [")).expect("it is there") + 1;
+    let check = |changes: &[(&str, &str)]| {
+        let text = changes.iter().fold(shipped.clone(), |text, (from, to)| {
+            assert!(text.contains(from), "`{from}` is not in the strategy");
+            text.replacen(from, to, 1)
+        });
+        own.write("mine.ron", text);
+        own.check(&["mine.ron"])
+    };
+    let theirs = "theirs: [(-0.95, 0.3), (-1.4, 1.2)";
+    let close = (theirs, "theirs: [(-0.95, 0.3), (-1.0, 0.6)");
+    let faults: [(&[(&str, &str)], &str); 5] = [
+        (&[close], "a robot at (-1, 0.6) would stand in the one at (-0.95, 0.3) by kick_off.theirs[0]"),
+        (&[(theirs, "theirs: [(-0.95, 0.3), (-1.4, 2.45)")], "a robot at (-1.4, 2.45) would stand in a wall"),
+        (
+            &[(theirs, "theirs: [(-0.95, 0.3), (-0.05, 1.2)")],
+            "a robot at (-0.05, 1.2) would reach into the wrong half",
+        ),
+        // Stretched to the nearest pitch that there is.
+        (
+            &[(theirs, "theirs: [(-0.95, 0.3), (-1.4, 2.75)"), ("pitch: (9.0, 5.0)", "pitch: (9.0, 5.5)")],
+            "a robot at (-1.4, 2.5) would stand in a wall",
+        ),
+        (
+            &[
+                (theirs, "theirs: [(-0.95, 0.3), (-1.4, 2.1)"),
+                ("pitch: (9.0, 5.0)", "pitch: (5.4, 4.0)"),
+                ("\"cye\", ", ""),
+            ],
+            "a robot at (-1.4, 2.1) would not stand on the pitch",
+        ),
+    ];
+    for (changes, message) in faults {
+        let (told, code) = check(changes);
+        let fault = told.lines().next().unwrap_or_default();
+        assert!(
+            fault.starts_with(&format!("fault mine.ron:{line}:")) && fault.contains("kick_off.theirs[1]: "),
+            "{fault}"
+        );
+        assert!(fault.ends_with(message) && code == Some(2), "{message}: {fault}");
+    }
+    // Robots without trailers have room there.
+    let (told, code) = check(&[close, ("\"cye\", ", "")]);
+    assert_eq!(code, Some(0), "{told}");
+}
+
+#[test]
 fn two_scenarios_of_one_name_are_told_apart_before_their_results_are_mixed_up() {
     let own = Own::new();
     let text = shipped(AssetKind::Scenario, "booking_one_goes").replace("seconds:", "seeds: 1, seconds:");

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use crate::comms::radio::Radio;
 use crate::data::{AssetFolder, AssetKind, DataError, Source, TopLevel, field_names};
-use crate::game::{Choice, MatchFile, MatchPlan, checked, read_addresses};
+use crate::game::{Choice, MatchFile, MatchPlan, checked, read_addresses, read_strategy_alone};
 use crate::lab::scenario::{ScenarioFile, ScenarioPlan};
 use crate::pitch::Pitch;
 use crate::robot::{RobotKind, Sensing};
-use crate::strategy::{Strategy, StrategyFile};
+use crate::strategy::StrategyFile;
 
 /// The kind of a file: the one that has most of the fields in it. So a file with a fault is told from another, too.
 ///
@@ -61,7 +61,7 @@ pub(super) fn read(
 ) -> Result<Option<ScenarioPlan>, DataError> {
     match kind {
         AssetKind::Scenario => return ScenarioPlan::read(assets, path).map(Some),
-        AssetKind::Strategy => Strategy::read(assets, path, None).strategy.map(drop)?,
+        AssetKind::Strategy => drop(read_strategy_alone(assets, path)?),
         AssetKind::Match => {
             MatchPlan::read_file(assets, path, &Choice::default())?;
         }

@@ -43,6 +43,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
     Ok(Strategy {
         name: file.name.clone(),
         description: file.description.clone(),
+        pitch: file.pitch,
         robot_kinds: file.robot_kinds.clone(),
         roles,
         players,
