@@ -9,7 +9,7 @@ use std::process::Command;
 use bevy::prelude::*;
 use touchline::game::Match;
 use touchline::game::requests::{Request, Requests, Shove};
-use touchline::geometry::Pose;
+use touchline::geometry::{Pose, Twist};
 use touchline::ids::{RobotId, Team};
 use touchline::lab::scenario::ScenarioPlan;
 use touchline::pitch::Pitch;
@@ -214,6 +214,29 @@ fn however_hard_something_is_pushed_it_stays_on_the_pitch() {
         }
         assert!(ball(&mut game).0.is_finite());
     }
+}
+
+#[test]
+fn nothing_moves_faster_than_50_metres_or_turns_faster_than_100_radians_a_second_whatever_pushes_it() {
+    let mut game = playing("");
+    let (mut fastest, mut fastest_turn) = (0.0_f32, 0.0_f32);
+    for tick in 0..300_u16 {
+        let way = Vec2::from_angle(f32::from(tick));
+        let mut requests = game.world_mut().resource_mut::<Requests>();
+        // Each push is bounded; that so many add up is what the limit is for.
+        for (team, number) in [(Team::Home, 0), (Team::Home, 1), (Team::Away, 0)].repeat(8) {
+            requests.ask(Request::Body(Shove::Push { robot: RobotId::new(team, number), by: 1e30 * way }));
+        }
+        game.tick();
+        assert_on_pitch(&mut game);
+        let mut bodies = game.world_mut().query::<(NameOrEntity, &Twist)>();
+        for (name, twist) in bodies.iter(game.world()) {
+            let (speed, turn) = (twist.linear.length(), twist.angular.abs());
+            assert!(speed < 50.01 && turn < 100.01, "{name} at tick {tick}: {speed} m/s, {turn} rad/s");
+            (fastest, fastest_turn) = (fastest.max(speed), fastest_turn.max(turn));
+        }
+    }
+    assert!(fastest > 40.0 && fastest_turn > 30.0, "they are pushed: {fastest} m/s, {fastest_turn} rad/s");
 }
 
 #[track_caller]

@@ -244,6 +244,8 @@ pub(crate) fn step(
         &(),
         &(),
     );
+    // A light body that a heavy one strikes leaves faster than that came.
+    limit_speeds(&mut bodies.bodies);
 }
 
 /// The fastest that a body moves, m/s, and turns, rad/s, however it is pushed.
