@@ -7,6 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use super::where_there_is_no_display;
+use crate::support::strategy_text;
 
 /// Starts the program. Whoever runs the tests may have shielded them from Ctrl-C, which children inherit.
 fn start(arguments: &[&str]) -> Child {
@@ -45,6 +46,29 @@ fn ctrl_c_ends_a_match_with_the_result_so_far() {
     assert_eq!(process.wait().expect("it is ours").code(), Some(130), "{said}");
     assert!(said.starts_with("interrupted after ") && said.contains("seed 1, digest "), "{said}");
     assert_eq!(rest(messages), "");
+}
+
+#[test]
+fn a_second_ctrl_c_ends_the_program_though_nobody_takes_the_result() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let strategy = folder.path().join("long.ron");
+    let (_, sound) = strategy_text("ball_chasers");
+    // A result that no pipe holds.
+    let long = sound.replace("\"Ball chasers\"", &format!("\"{}\"", "x".repeat(2 << 20)));
+    std::fs::write(&strategy, long).expect("the file is written");
+    let mut process = start(&["play", "--minutes", "40", "--home", &strategy.to_string_lossy()]);
+    let mut messages = BufReader::new(process.stderr.take().expect("it is a pipe"));
+    let mut line = String::new();
+    messages.read_line(&mut line).expect("it is text");
+    assert!(line.contains("headless"), "{line}");
+    interrupt(&mut process);
+    let mut result = BufReader::new(process.stdout.take().expect("it is a pipe"));
+    line.clear();
+    result.read_line(&mut line).expect("it is text");
+    assert!(line.starts_with("interrupted after "), "{line}");
+    interrupt(&mut process);
+    assert_eq!(process.wait().expect("it is ours").code(), Some(130));
+    assert!(!rest(result).contains("digest"), "it was not written whole");
 }
 
 #[test]
