@@ -32,6 +32,11 @@ pub struct Orders {
 }
 
 impl Orders {
+    /// Whether the robot serves a penalty, off the pitch or where it stands.
+    pub fn is_penalised(&self) -> bool {
+        self.state == RobotState::Penalised
+    }
+
     /// Whether the robot may move by itself.
     pub fn may_move(&self) -> bool {
         match self.state {

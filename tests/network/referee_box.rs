@@ -8,7 +8,7 @@ use touchline::game::requests::{Request, Requests, Shove};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::mind::teamwork::Booking;
+use touchline::mind::teamwork::{Booking, TeamPicture};
 use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
 use touchline::robot::{OffPitch, Orders, RobotState};
@@ -24,6 +24,7 @@ use super::{HOME_0, open, plan, stranger, talkative};
 use crate::support::ball;
 
 mod orders;
+mod penalties;
 mod program;
 
 /// The league's numbers of home and away.
@@ -118,6 +119,25 @@ impl Refereed {
         found.map(|(_, orders, off)| (orders.state, off)).expect("the robot is in the match")
     }
 
+    /// The robots that claim the ball.
+    fn claimants(&mut self) -> Vec<RobotId> {
+        let mut robots = self.game.world_mut().query::<(&RobotId, &TeamPicture)>();
+        robots.iter(self.game.world()).filter(|(_, own)| own.has_ball).map(|(id, _)| *id).collect()
+    }
+
+    /// Plays on until all mates of a robot of home know that it has booked the ball; its number.
+    fn until_the_ball_is_booked(&mut self) -> u8 {
+        loop {
+            self.ticks(1);
+            let bookings = self.bookings();
+            let booked = (0..4).find(|booker| bookings.iter().filter(|(_, of)| of == booker).count() == 3);
+            if let Some(booker) = booked {
+                return booker;
+            }
+            assert!(self.game.clock().now() < 60.0, "nobody books the ball");
+        }
+    }
+
     /// The robots of home that take another one to have booked the ball, with that one.
     fn bookings(&mut self) -> Vec<(u8, u8)> {
         let tick = self.game.clock().tick;
@@ -196,38 +216,6 @@ fn a_ball_in_the_goal_is_a_goal_when_the_box_says_so() {
     let goals =
         whistles.heard.iter().filter(|(_, call)| matches!(call, Decision::Goal { by: Team::Home, .. }));
     assert_eq!(goals.count(), 1);
-}
-
-#[test]
-fn a_penalised_robot_is_off_lets_its_booking_go_and_comes_back_when_the_box_says_so() {
-    let mut refereed = Refereed::playing(plan("four_legged_2005", ["chaos_b3p", "chaos_plain"], 10.0));
-    let name = |bookings: &[(u8, u8)], booker| bookings.iter().filter(|(_, of)| *of == booker).count();
-    let booker = loop {
-        refereed.ticks(1);
-        let bookings = refereed.bookings();
-        // All three mates know.
-        if let Some((_, booker)) = bookings.iter().find(|(_, booker)| name(&bookings, *booker) == 3) {
-            break *booker;
-        }
-        assert!(refereed.game.clock().now() < 60.0, "nobody books the ball");
-    };
-    let robot = RobotId::new(Team::Home, booker);
-    assert_eq!(refereed.orders(robot), (RobotState::Playing, false));
-    let sentence = Sentence { side: 0, player: booker, penalty: Penalty::Pushing, seconds_left: 30.0 };
-    refereed.say(|says| says.penalties = vec![sentence]);
-    assert_eq!(refereed.orders(robot), (RobotState::Penalised, true));
-    // Two decisions and the time of a message, while a booking that nobody withdraws expires after 48 ticks.
-    refereed.ticks(6);
-    for _ in 0..600 {
-        assert_eq!(name(&refereed.bookings(), booker), 0);
-        assert_eq!(refereed.orders(robot), (RobotState::Penalised, true));
-        refereed.ticks(1);
-    }
-    refereed.say(|says| says.penalties.clear());
-    assert_eq!(refereed.orders(robot), (RobotState::Playing, false));
-    assert!(refereed.game.state().removed.is_empty());
-    let (pose, _) = crate::support::robot(&mut refereed.game, Team::Home, booker);
-    assert!(refereed.game.world().resource::<Pitch>().holds(pose.position, 0.0), "{pose:?}");
 }
 
 #[test]

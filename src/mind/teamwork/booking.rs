@@ -10,7 +10,7 @@ use crate::comms::tcm::TcmClient;
 use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::world_model::WorldModel;
 use crate::protocol::b3p::{B3p, Distance, Input, Settings};
-use crate::robot::{OffPitch, Robot};
+use crate::robot::{Orders, Robot};
 use crate::strategy::teamwork::{BallBooking, Mechanism};
 use crate::strategy::{Activity, Strategies, Strategy};
 
@@ -56,7 +56,7 @@ pub(super) struct Bidder {
     booking: &'static mut Booking,
     picture: &'static mut TeamPicture,
     client: &'static mut TcmClient,
-    off_pitch: Has<OffPitch>,
+    orders: &'static Orders,
 }
 
 /// One turn of each robot's loop: what was announced, then what it does itself.
@@ -80,9 +80,10 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
 }
 
 impl BidderItem<'_, '_> {
-    /// A robot that knows where it is books the ball that it sees, if that is where its role may go.
+    /// A robot that knows where it is books the ball that it sees, if that is where its role may go; one that serves a
+    /// penalty, off the pitch or where it stands, lets it go.
     fn turn(&self, strategy: &Strategy, clock: &Clock) -> Input {
-        if self.off_pitch {
+        if self.orders.is_penalised() {
             return Input::Withdraw;
         }
         let sight = strategy.teamwork.ball_booking.map_or(0, |spec| clock.ticks(spec.sight));

@@ -13,7 +13,7 @@ use crate::ids::RobotId;
 use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::RoleIndex;
-use crate::robot::{OffPitch, Robot};
+use crate::robot::{OffPitch, Orders, Robot};
 use crate::strategy::teamwork::{Mechanism, Talk};
 use crate::strategy::{Activity, Role, State, Strategies, Strategy};
 
@@ -27,7 +27,7 @@ pub(super) struct Claimant {
     activity: &'static Activity,
     role: &'static Role,
     picture: &'static mut TeamPicture,
-    off_pitch: Has<OffPitch>,
+    orders: &'static Orders,
 }
 
 /// A robot claims the ball while it is within a metre of it in an acquire behaviour, unless somebody above it does.
@@ -49,7 +49,7 @@ impl ClaimantItem<'_, '_> {
     fn is_at_ball(&self, strategy: &Strategy) -> bool {
         let radius = strategy.teamwork.talk.claim_radius;
         let near = |ball: Vec2| ball.distance(self.model.pose.position) <= radius;
-        !self.off_pitch
+        !self.orders.is_penalised()
             && state(self.activity, strategy).acquires
             && self.model.ball.is_some_and(|ball| near(ball.position))
     }
