@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use bevy::math::ops;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use touchline::data::{AssetFolder, AssetKind, DataError};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::lab::scenario::ScenarioPlan;
@@ -160,7 +161,8 @@ fn every_number_of_every_kind_of_file_has_a_bound() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    // The same numbers in every run.
+    #![proptest_config(ProptestConfig { cases: 96, rng_seed: RngSeed::Fixed(2001), ..ProptestConfig::default() })]
     #[test]
     fn any_number_in_a_shipped_file_is_refused_or_played(
         file in prop::sample::select(&FILES[..]),
