@@ -18,6 +18,7 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
+use footprint::place_of;
 pub use footprint::{Footprint, trailer_shape, unit_shapes};
 pub use room::Room;
 
@@ -159,11 +160,7 @@ impl Overlaps<'_, '_> {
             let depth = move |pair: &ContactPair| {
                 let other = if pair.collider1 == own { pair.collider2 } else { pair.collider1 };
                 let collider = colliders.colliders.get(other)?;
-                // A body that was put elsewhere after the step takes its shapes along at the next.
-                let place = match (collider.parent(), collider.position_wrt_parent()) {
-                    (Some(body), Some(offset)) => *bodies.bodies.get(body)?.position() * *offset,
-                    _ => *collider.position(),
-                };
+                let place = place_of(collider, &bodies.bodies);
                 let nearest = collider.shape().project_point(&place, ball.translation(), false);
                 let gap = nearest.point.distance(ball.translation());
                 Some(radius - if nearest.is_inside { -gap } else { gap })

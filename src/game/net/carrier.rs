@@ -21,7 +21,7 @@ use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
 
 use super::WireError;
-use super::remote::TURN;
+use super::remote::DATAGRAMS_A_TICK;
 
 pub(super) fn plugin(app: &mut App) {
     let is_used = resource_exists::<UdpCarrier>;
@@ -147,7 +147,7 @@ impl UdpCarrier {
     pub(super) fn drain(&mut self, directory: &Directory) {
         let ours: Vec<RobotId> = self.conns.keys().copied().collect();
         for robot in ours {
-            for _ in 0..TURN {
+            for _ in 0..DATAGRAMS_A_TICK {
                 let Some((from, bytes)) = self.next(robot) else { break };
                 self.note(from, &bytes, directory);
             }
@@ -167,7 +167,7 @@ fn deliver(
     let ours: Vec<RobotId> = carrier.conns.keys().copied().collect();
     for to in ours {
         let hears = robots.iter().any(|(id, robot)| *id == to && robot.condition.hears());
-        for _ in 0..TURN {
+        for _ in 0..DATAGRAMS_A_TICK {
             let Some((from, bytes)) = carrier.next(to) else { break };
             let Some((source, header)) = carrier.note(from, &bytes, &addresses.0) else { continue };
             let known = carrier.arrived((source, header.counter, header.index), to);

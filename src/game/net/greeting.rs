@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use bevy::prelude::*;
 
 use super::WireError;
-use super::remote::{RemoteRobots, TURN};
+use super::remote::{DATAGRAMS_A_TICK, RemoteRobots};
 use crate::ids::RobotId;
 
 /// How often a robot that does not answer is greeted, and how often one that is not told anything.
@@ -55,7 +55,7 @@ impl RemoteRobots {
     pub fn poll(&mut self, world: &mut World, patience: Duration) -> Greeting {
         self.introduce();
         let mut patience = patience;
-        for _ in 0..TURN {
+        for _ in 0..DATAGRAMS_A_TICK {
             let Some(heard) = self.hear(patience) else { break };
             patience = Duration::ZERO;
             if let Some((robot, word)) = heard {

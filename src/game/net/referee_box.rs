@@ -7,7 +7,7 @@ use bevy::log::{info, warn};
 use bevy::prelude::*;
 
 use super::box_log::{BoxLog, ignored_line, new_penalties};
-use super::remote::TURN;
+use super::remote::DATAGRAMS_A_TICK;
 use super::robot_status::Observers;
 use super::{WireError, WirePlan};
 use crate::clock::Clock;
@@ -66,7 +66,7 @@ impl BoxSocket {
     fn hear(&mut self, clock: &Clock, news: &mut BoxNews) {
         let now = millis(clock);
         let mut view: Option<View> = None;
-        for _ in 0..TURN {
+        for _ in 0..DATAGRAMS_A_TICK {
             let Ok(Some((from, bytes))) = self.conn.receive() else { break };
             match self.follower.hear(from, bytes, now) {
                 Ok(None) => {}

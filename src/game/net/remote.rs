@@ -29,7 +29,7 @@ const PATIENCE: Duration = Duration::from_millis(200);
 /// A robot that has not answered for this many ticks stands still, and no tick waits for it until it answers again.
 const SILENCE: u64 = 10;
 /// The most datagrams that are taken at a time when there is no robot to wait for, so that a flood does not stop a match.
-pub(super) const TURN: usize = 128;
+pub(super) const DATAGRAMS_A_TICK: usize = 128;
 
 /// Counts of the packets to and from one remote robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -158,12 +158,12 @@ impl RemoteRobots {
         let begin = Instant::now();
         let patience = self.granted.map_or(PATIENCE, |granted| granted.min(PATIENCE));
         let mut open: Vec<RobotId> = self.robots.keys().copied().collect();
-        let mut turn = TURN;
-        while turn > 0 {
+        let mut more = DATAGRAMS_A_TICK;
+        while more > 0 {
             let is_awaited = open.iter().any(|robot| self.robots[robot].waits);
             let patience = if is_awaited { patience } else { Duration::ZERO };
             let left = patience.saturating_sub(begin.elapsed());
-            turn -= usize::from(left.is_zero());
+            more -= usize::from(left.is_zero());
             let Some(heard) = self.hear(left) else { break };
             let Some((robot, word)) = heard else { continue };
             if let Some(answered) = self.meet(world, robot, word)

@@ -12,7 +12,7 @@ use super::WireError;
 use super::carrier::{CarrierFigures, UdpCarrier};
 use super::introduction::Introduction;
 use super::protocol::{Command, Sensors, datagrams, unused_number};
-use super::remote::TURN;
+use super::remote::DATAGRAMS_A_TICK;
 use crate::clock::Clock;
 use crate::comms::tcm::external_message::Entity as Party;
 use crate::comms::tcm::fragments::{Assembly, Header, Limits};
@@ -145,7 +145,7 @@ impl RobotProcess {
                 }
                 Some(_) => {
                     let mut incoming = self.app.world_mut().resource_mut::<Incoming>();
-                    if incoming.0.len() < TURN {
+                    if incoming.0.len() < DATAGRAMS_A_TICK {
                         incoming.0.push((self.id, datagram.into()));
                     }
                 }
@@ -225,7 +225,7 @@ impl RobotProcess {
 
     /// Counts what has arrived when the match is over. In lock-step nobody says anything more.
     fn drain(&mut self) {
-        for _ in 0..TURN {
+        for _ in 0..DATAGRAMS_A_TICK {
             let Some((from, datagram)) = self.receive(Duration::ZERO) else { break };
             self.note(from, &datagram);
         }

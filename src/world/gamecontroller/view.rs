@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::control::{ControlPacket, GamePhase, Penalty, SetPlay, State};
+use crate::ids::Team;
 
 /// Seconds after which a box that has finished a match is taken to be done with it: one with a winner, and one that may go
 /// on with extra time, a shoot-out or the next shot of one. ASSUMPTION: the breaks of the league's rules are shorter.
@@ -105,6 +106,11 @@ impl View {
     /// Whether one robot has the ball and only the opposing goalkeeper is in its way.
     pub fn is_penalty_kick(&self) -> bool {
         self.set_play == SetPlay::PenaltyKick || self.game_phase == GamePhase::PenaltyShootOut
+    }
+
+    /// The team that has the kick-off or the set play. None at a dropped ball.
+    pub fn kicking_team(&self) -> Option<Team> {
+        self.kicking.and_then(|side| Team::BOTH.get(side)).copied()
     }
 
     /// The penalty of a player.

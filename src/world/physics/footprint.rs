@@ -58,12 +58,7 @@ impl Footprint {
     ) -> Footprint {
         let parts = colliders.iter().map(|(_, collider)| collider);
         let others = parts.filter(|part| part.parent().is_none_or(|body| !except.contains(&body)));
-        let placed = others.map(|part| {
-            // A collider follows its body only in the next step.
-            let body = part.parent().and_then(|body| bodies.get(body));
-            let at = body.map_or(*part.position(), |body| *body.position() * place_on_body(part));
-            (at, part.shared_shape().clone())
-        });
+        let placed = others.map(|part| (place_of(part, bodies), part.shared_shape().clone()));
         Footprint { parts: placed.collect() }
     }
 
@@ -98,6 +93,12 @@ pub fn trailer_shape(kind: &TrailerKind) -> Option<SharedShape> {
 
 fn place_on_body(part: &Collider) -> Isometry {
     part.position_wrt_parent().copied().unwrap_or(Isometry::IDENTITY)
+}
+
+/// Where a shape is. It follows a body that was put elsewhere only in the next step; its own position lags behind.
+pub(super) fn place_of(part: &Collider, bodies: &RigidBodySet) -> Isometry {
+    let body = part.parent().and_then(|body| bodies.get(body));
+    body.map_or(*part.position(), |body| *body.position() * place_on_body(part))
 }
 
 fn isometry(pose: Pose) -> Isometry {

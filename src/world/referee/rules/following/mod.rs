@@ -35,8 +35,8 @@ pub fn follow(
     state.restraints.stopped = view.stopped || word.is_lost;
     let turned = ends::follow(view, state, decisions);
     count_goals(view, state, decisions);
-    if let Some(side) = view.kicking {
-        state.kick_off = Team::BOTH[side.min(1)];
+    if let Some(kicking) = view.kicking_team() {
+        state.kick_off = kicking;
     }
     state.dropped_ball = view.kicking.is_none();
     state.time_left = f64::from(view.seconds_left);

@@ -37,9 +37,8 @@ pub(super) fn follow(
     state: &mut MatchState,
     decisions: &mut Vec<Decision>,
 ) {
-    let kicking = view.kicking.and_then(|side| Team::BOTH.get(side)).copied();
     let runs = matches!(state.phase, Phase::Ready | Phase::Set | Phase::Playing) && view.is_penalty_kick();
-    let Some(kicking) = kicking.filter(|_| runs) else {
+    let Some(kicking) = view.kicking_team().filter(|_| runs) else {
         state.following.penalty_kick = None;
         state.restraints.carried = false;
         return;

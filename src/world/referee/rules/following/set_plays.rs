@@ -28,9 +28,9 @@ pub(super) fn follow(
     state: &mut MatchState,
     decisions: &mut Vec<Decision>,
 ) {
-    let kicking = view.kicking.and_then(|side| Team::BOTH.get(side)).copied();
     let kind = Some(view.set_play).filter(|play| !matches!(play, SetPlay::None | SetPlay::Other(_)));
-    let running = kind.filter(|_| state.phase == Phase::Playing && !view.is_penalty_kick()).zip(kicking);
+    let running =
+        kind.filter(|_| state.phase == Phase::Playing && !view.is_penalty_kick()).zip(view.kicking_team());
     let Some((play, kicking)) = running else {
         state.following.set_play = None;
         if state.following.penalty_kick.is_none() {
