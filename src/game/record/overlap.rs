@@ -36,3 +36,17 @@ pub(super) fn watch_overlaps(
 ) {
     overlaps.of_ball(*ball, kind.radius).for_each(|depth| record.overlap.add(depth));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_deeper_than_the_tolerance_is_counted_and_the_deepest_of_all_is_kept() {
+        let mut overlap = BallOverlap::default();
+        for depth in [0.001, 0.0021, 0.03, 0.002, 0.004] {
+            overlap.add(depth);
+        }
+        assert_eq!(overlap, BallOverlap { body_ticks: 3, deepest: 0.03 });
+    }
+}
