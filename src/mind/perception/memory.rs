@@ -6,20 +6,20 @@
 use bevy::prelude::*;
 
 use crate::mind::schemas::docking::DockLatch;
-use crate::mind::schemas::memory::{Hold, Hysteresis, Remembered, Watchdog};
+use crate::mind::schemas::memory::{HoldFor, Hysteresis, Remembered, Watchdog};
 use crate::mind::schemas::noise::Noise;
 
 /// The memories of one robot's operators.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Memory {
-    cells: Vec<Kept>,
+    cells: Vec<OperatorState>,
     /// Counts the decisions.
     decision: u64,
 }
 
 /// A cell and the decision in which its operator was last asked.
 #[derive(Clone, Debug, Default)]
-struct Kept {
+struct OperatorState {
     asked: u64,
     cell: Cell,
 }
@@ -30,7 +30,7 @@ pub enum Cell {
     #[default]
     Empty,
     Remembered(Remembered),
-    Hold(Hold),
+    HoldFor(HoldFor),
     Lasting(Lasting),
     Watchdog(Watchdog),
     Hysteresis(Hysteresis),
@@ -54,7 +54,7 @@ impl Lasting {
 
 impl Memory {
     pub fn new(slots: usize) -> Memory {
-        Memory { cells: vec![Kept::default(); slots], decision: 0 }
+        Memory { cells: vec![OperatorState::default(); slots], decision: 0 }
     }
 
     /// To be called once a decision, before any operator is asked.
@@ -75,7 +75,7 @@ macro_rules! cells {
         impl Memory {
             $(
                 pub fn $method(&mut self, slot: usize) -> &mut $kind {
-                    let Kept { asked, cell } = &mut self.cells[slot];
+                    let OperatorState { asked, cell } = &mut self.cells[slot];
                     let gap = self.decision - std::mem::replace(asked, self.decision) > 1;
                     let stale = gap && AfterGap::$after_gap == AfterGap::StartsAnew;
                     if stale || !matches!(cell, Cell::$kind(_)) {
@@ -93,7 +93,7 @@ macro_rules! cells {
 
 cells!(
     remembered: Remembered GoesOn,
-    hold: Hold GoesOn,
+    hold_for: HoldFor GoesOn,
     lasting: Lasting StartsAnew,
     watchdog: Watchdog StartsAnew,
     hysteresis: Hysteresis StartsAnew,
@@ -118,9 +118,9 @@ mod tests {
     #[test]
     fn cells_keep_what_they_hold() {
         let mut memory = Memory::new(2);
-        assert!(memory.hold(1).update(true, 0.0, 1.0));
-        assert!(memory.hold(1).update(false, 0.5, 1.0));
-        assert!(!memory.hold(0).update(false, 0.5, 1.0));
+        assert!(memory.hold_for(1).update(true, 0.0, 1.0));
+        assert!(memory.hold_for(1).update(false, 0.5, 1.0));
+        assert!(!memory.hold_for(0).update(false, 0.5, 1.0));
     }
 
     #[test]
@@ -141,8 +141,8 @@ mod tests {
     #[test]
     fn what_keeps_times_of_its_own_goes_on_when_a_decision_did_not_ask_it() {
         let mut memory = Memory::new(1);
-        assert!(memory.hold(0).update(true, 0.0, 1.0));
+        assert!(memory.hold_for(0).update(true, 0.0, 1.0));
         (0..5).for_each(|_| memory.begin_decision());
-        assert!(memory.hold(0).update(false, 0.9, 1.0));
+        assert!(memory.hold_for(0).update(false, 0.9, 1.0));
     }
 }

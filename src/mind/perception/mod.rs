@@ -233,7 +233,7 @@ impl Perception<'_> {
             Feature::After(seconds) => self.time_in_state >= *seconds,
             Feature::HoldFor { what, seconds, slot } => {
                 let input = self.holds(what, memory);
-                memory.hold(*slot).update(input, self.now, *seconds)
+                memory.hold_for(*slot).update(input, self.now, *seconds)
             }
             Feature::Lasting { what, seconds, slot } => {
                 let input = self.holds(what, memory);

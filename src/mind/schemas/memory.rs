@@ -88,11 +88,11 @@ impl Remembered {
 
 /// True while its input is or was true within the last `seconds` (Clay's Persist of a condition).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Hold {
+pub struct HoldFor {
     last_true: Option<f32>,
 }
 
-impl Hold {
+impl HoldFor {
     /// Takes the input of `now` (seconds) and tells the held one.
     pub fn update(&mut self, input: bool, now: f32, seconds: f32) -> bool {
         if input {
@@ -222,12 +222,12 @@ mod tests {
 
     #[test]
     fn hold_is_true_until_the_input_was_false_for_longer_than_asked() {
-        let mut hold = Hold::default();
+        let mut hold = HoldFor::default();
         assert!(!hold.update(false, 0.0, 1.0));
         assert!(hold.update(true, 1.0, 1.0));
         assert!(hold.update(false, 2.0, 1.0));
         assert!(!hold.update(false, 2.1, 1.0));
-        assert!(!Hold { last_true: Some(600.0) }.update(false, 0.0, 1.0));
+        assert!(!HoldFor { last_true: Some(600.0) }.update(false, 0.0, 1.0));
     }
 
     #[test]

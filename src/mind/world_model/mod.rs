@@ -1,28 +1,22 @@
-//! The WorldModel stage: each robot's beliefs about itself, the ball and the others, in its team frame.
-//!
-//! Between frames everything is dead-reckoned; a frame corrects the beliefs as they were when its shutter opened. What has
-//! not been seen for a while is forgotten.
+//! The WorldModel stage: percepts and messages become each robot's beliefs.
 
 mod ball_filter;
+mod beliefs;
 #[cfg(test)]
 mod tests;
 
-use std::collections::VecDeque;
-
-use crate::robot::MemorySpans;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
-use smallvec::SmallVec;
 
 pub use ball_filter::{BallFilter, roll_on};
+pub use beliefs::{BallBelief, EXPECTED_ROLLING, MateBelief, RobotBelief, WorldModel};
 
 use crate::clock::Clock;
-use crate::comms::messages::{Inbox, Message};
-use crate::geometry::{Pose, Sighting, unit, wrap_angle};
-use crate::ids::{PlayerNumber, RobotId, Team};
+use crate::comms::messages::Inbox;
+use crate::ids::RobotId;
 use crate::pitch::Pitch;
 use crate::robot::handling::Handling;
-use crate::robot::{Eyes, Frame, Odometry, OffPitch, Percepts, Robot, range_deviation, should_be_seen};
+use crate::robot::{Odometry, OffPitch, Percepts, Robot};
 use crate::schedule::{Tick, TickSystems};
 use crate::strategy::Strategies;
 
@@ -30,290 +24,10 @@ pub(super) fn plugin(app: &mut App) {
     app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));
 }
 
-/// What a robot believes, in its team frame.
-#[derive(Component, Clone, Debug, Default)]
-pub struct WorldModel {
-    pub pose: Pose,
-    pub ball: Option<BallBelief>,
-    /// The other robots, its own team's and the opponents', as far as it knows of them.
-    pub robots: Vec<RobotBelief>,
-    /// The team mates that have told where they are lately.
-    pub mates: SmallVec<[MateBelief; 8]>,
-    is_localised: bool,
-    filter: Option<BallFilter>,
-    /// Believed poses of the last decisions, oldest first: a frame is older than now.
-    past: VecDeque<(u64, Pose)>,
-    odometry: Option<Pose>,
-    last_frame: Option<u64>,
-    misses: u32,
-}
-
-/// A ball that a robot believes in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BallBelief {
-    /// m
-    pub position: Vec2,
-    /// m/s
-    pub velocity: Vec2,
-    /// The tick of the frame that showed it last.
-    pub seen: u64,
-}
-
-/// A team mate that has told where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MateBelief {
-    pub number: PlayerNumber,
-    /// m, where it believed itself to be.
-    pub position: Vec2,
-    /// A unit vector.
-    pub heading: Vec2,
-    /// Milliseconds on its clock when it said so.
-    pub time: u32,
-    /// The tick in which it was heard.
-    pub heard: u64,
-}
-
-/// Another robot that a robot believes in.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RobotBelief {
-    pub team: Team,
-    /// m
-    pub position: Vec2,
-    /// The tick of the frame that showed it last.
-    pub seen: u64,
-}
-
-/// Share of a localisation fix that is believed at once; the rest is dead reckoning.
-const FIX_GAIN: f32 = 0.2;
-/// A fix farther off than this is believed whole, as after being carried, m and rad.
-const FIX_JUMP: (f32, f32) = (1.0, 0.7);
-/// Sightings nearer to a known robot of the same team than this are taken for it, m, or than twice their deviation.
-const SAME_ROBOT: f32 = 0.7;
-/// Two robots do not fit nearer together than this: of two beliefs that do, the newer one is kept, m.
-const ONE_PLACE: f32 = 0.35;
-/// Robots of each team that are believed in at most; the one seen longest ago gives way.
-const MOST_OF_A_TEAM: usize = 8;
-/// Share of a new sighting in the place of a known robot.
-const SIGHTING_GAIN: f32 = 0.6;
-/// After this many frames that should have shown the ball and did not, it is gone.
-const MISSES: u32 = 6;
-/// Deceleration that robots expect of a rolling ball, m/s².
-pub const EXPECTED_ROLLING: f32 = 0.3;
-
-impl WorldModel {
-    /// The beliefs of a robot that people have just put down somewhere and told where it is.
-    pub fn told(pose: Pose) -> WorldModel {
-        WorldModel { pose, is_localised: true, ..WorldModel::default() }
-    }
-
-    /// Whether the robot has found out where it is, or was told; before that its pose means nothing.
-    pub fn is_localised(&self) -> bool {
-        self.is_localised
-    }
-
-    pub fn mate(&self, number: PlayerNumber) -> Option<&MateBelief> {
-        self.mates.iter().find(|mate| mate.number == number)
-    }
-
-    /// The team mates seen that are none of those heard.
-    pub fn strangers(&self, team: Team) -> impl Iterator<Item = Vec2> + '_ {
-        let is_known = |seen: &Vec2| self.mates.iter().any(|mate| mate.position.distance(*seen) < SAME_ROBOT);
-        self.of_team(team).filter(move |seen| !is_known(seen))
-    }
-
-    /// The robots of a team that were seen.
-    pub fn of_team(&self, team: Team) -> impl Iterator<Item = Vec2> + '_ {
-        self.robots.iter().filter(move |robot| robot.team == team).map(|robot| robot.position)
-    }
-
-    fn dead_reckon(&mut self, odometry: Pose, tick: u64) {
-        if let Some(before) = self.odometry.replace(odometry) {
-            let turn = wrap_angle(odometry.heading - before.heading);
-            let way = before.to_local(odometry.position);
-            self.pose =
-                Pose { position: self.pose.to_field(way), heading: wrap_angle(self.pose.heading + turn) };
-        }
-        self.past.push_back((tick, self.pose));
-        if self.past.len() > PAST {
-            self.past.pop_front();
-        }
-    }
-
-    /// The believed pose at a tick, between two decisions too.
-    fn pose_at(&self, tick: u64) -> Pose {
-        let later = self.past.partition_point(|(at, _)| *at <= tick);
-        let before = later.checked_sub(1).map(|index| self.past[index]);
-        match (before, self.past.get(later)) {
-            (Some((start, from)), Some(&(end, to))) => {
-                let share = (tick - start) as f32 / (end - start) as f32;
-                Pose {
-                    position: from.position.lerp(to.position, share),
-                    heading: wrap_angle(from.heading + share * wrap_angle(to.heading - from.heading)),
-                }
-            }
-            (Some((_, pose)), None) | (None, Some(&(_, pose))) => pose,
-            (None, None) => self.pose,
-        }
-    }
-
-    fn localise(&mut self, frame: &Frame, eyes: &Eyes) {
-        let then = self.pose_at(frame.taken);
-        let offset = frame.fix.position - then.position;
-        let turn = wrap_angle(frame.fix.heading - then.heading);
-        let jump = offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1;
-        let is_believed_whole = jump || !self.is_localised || *eyes == Eyes::Perfect;
-        let gain = if is_believed_whole { 1.0 } else { FIX_GAIN };
-        // The way since then is as long as before, but leads elsewhere if the robot looked elsewhere.
-        let turned = unit(gain * turn);
-        let correct = |pose: Pose| Pose {
-            position: then.position + gain * offset + turned.rotate(pose.position - then.position),
-            heading: wrap_angle(pose.heading + gain * turn),
-        };
-        self.is_localised = true;
-        self.pose = correct(self.pose);
-        self.past.iter_mut().for_each(|(_, pose)| *pose = correct(*pose));
-    }
-
-    /// The chin holds the ball, a little ahead of the robot's centre.
-    fn feel_ball(&mut self, ahead: Vec2, tick: u64) {
-        let position = self.pose.to_field(ahead);
-        self.filter = Some(BallFilter::new(position, 0.02));
-        self.ball = Some(BallBelief { position, velocity: Vec2::ZERO, seen: tick });
-        self.misses = 0;
-    }
-
-    fn see_ball(&mut self, frame: &Frame, eyes: &Eyes, dt_since_last: f32) {
-        let then = self.pose_at(frame.taken);
-        let filter = self.filter.map(|filter| filter.predict(dt_since_last, EXPECTED_ROLLING));
-        match frame.ball {
-            Some(sighting) => {
-                let deviation = deviation(eyes, sighting);
-                let at = sighting.placed(then);
-                self.filter = Some(match filter {
-                    Some(filter) => filter.update(at, deviation),
-                    None => BallFilter::new(at, deviation),
-                });
-                self.misses = 0;
-                self.ball = self.filter.map(|filter| BallBelief {
-                    position: filter.position,
-                    velocity: filter.velocity,
-                    seen: frame.taken,
-                });
-            }
-            None => {
-                self.filter = filter;
-                let expected = filter.map(|filter| Sighting::of(filter.position, then));
-                let missed = |expected| should_be_seen(eyes, frame, expected) && !is_hidden(expected, frame);
-                self.misses += u32::from(expected.is_some_and(missed));
-            }
-        }
-    }
-
-    /// Each sighting renews one belief or adds one. Noise makes two beliefs of one robot now and then; they are made one
-    /// where they meet, fade with the memory otherwise, and are never more than [`MOST_OF_A_TEAM`].
-    fn see_robots(&mut self, frame: &Frame, eyes: &Eyes) {
-        let then = self.pose_at(frame.taken);
-        let gain = if *eyes == Eyes::Perfect { 1.0 } else { SIGHTING_GAIN };
-        for (team, sighting) in &frame.robots {
-            let (at, seen) = (sighting.placed(then), frame.taken);
-            let reach = SAME_ROBOT.max(2.0 * deviation(eyes, *sighting));
-            let known = (self.robots.iter_mut())
-                .filter(|known| known.team == *team && known.seen < seen)
-                .map(|known| (known.position.distance(at), known))
-                .filter(|(distance, _)| *distance < reach)
-                .min_by(|(a, _), (b, _)| a.total_cmp(b));
-            match known {
-                Some((_, known)) => {
-                    known.position = known.position.lerp(at, gain);
-                    known.seen = seen;
-                }
-                None => self.robots.push(RobotBelief { team: *team, position: at, seen }),
-            }
-        }
-        self.drop_doubles(frame.taken);
-    }
-
-    fn drop_doubles(&mut self, seen: u64) {
-        let fresh: SmallVec<[RobotBelief; 8]> =
-            self.robots.iter().filter(|robot| robot.seen == seen).copied().collect();
-        let is_double = |robot: &RobotBelief| {
-            let same = |other: &RobotBelief| other.team == robot.team;
-            let near = |other: &RobotBelief| other.position.distance(robot.position) < ONE_PLACE;
-            robot.seen < seen && fresh.iter().any(|other| same(other) && near(other))
-        };
-        self.robots.retain(|robot| !is_double(robot));
-        for team in Team::BOTH {
-            while self.of_team(team).count() > MOST_OF_A_TEAM {
-                let of_team = self.robots.iter().enumerate().filter(|(_, robot)| robot.team == team);
-                let Some((oldest, _)) = of_team.min_by_key(|(_, robot)| robot.seen) else { break };
-                self.robots.remove(oldest);
-            }
-        }
-    }
-
-    /// Takes note of position messages; one that was overtaken by a later one is no news.
-    fn hear(&mut self, inbox: &Inbox, tick: u64) {
-        for message in &inbox.0 {
-            let Message::Position(said) = &message.message else { continue };
-            let mate = MateBelief {
-                number: message.from,
-                position: said.position,
-                heading: said.heading,
-                time: said.time,
-                heard: tick,
-            };
-            match self.mates.iter_mut().find(|known| known.number == mate.number) {
-                Some(known) if mate.time < known.time => {}
-                Some(known) => *known = mate,
-                None => {
-                    self.mates.push(mate);
-                    self.mates.sort_unstable_by_key(|mate| mate.number);
-                }
-            }
-        }
-    }
-
-    fn forget_mates(&mut self, tick: u64, memory: u64) {
-        self.mates.retain(|mate| tick.saturating_sub(mate.heard) <= memory);
-    }
-
-    fn forget(&mut self, spans: MemorySpans, clock: &Clock) {
-        let age = |seen: u64| clock.tick.saturating_sub(seen) as f32 * clock.dt;
-        if self.misses >= MISSES || self.ball.is_some_and(|ball| age(ball.seen) > spans.ball) {
-            (self.ball, self.filter, self.misses) = (None, None, 0);
-        }
-        self.robots.retain(|robot| age(robot.seen) <= spans.robots);
-    }
-}
-
-/// Decisions whose poses are kept: 3 s at 20 a second, which no latency should exceed.
-const PAST: usize = 64;
-
-/// Whether a robot that the frame shows stands in the way of something.
-fn is_hidden(expected: Sighting, frame: &Frame) -> bool {
-    frame.robots.iter().any(|(_, robot)| {
-        let beside = wrap_angle(expected.bearing - robot.bearing).abs() * robot.range;
-        robot.range < expected.range && beside < ROBOT_RADIUS
-    })
-}
-
-/// Robots take each other to be this large, m.
-const ROBOT_RADIUS: f32 = 0.25;
-
-fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
-    match eyes {
-        Eyes::Perfect => 0.001,
-        Eyes::Real { camera, .. } => {
-            let across = camera.bearing_noise.to_radians() * sighting.range;
-            range_deviation(camera, sighting.range).max(across).max(0.01)
-        }
-    }
-}
-
 /// A robot and what its senses tell.
 #[derive(QueryData)]
 #[query_data(mutable)]
-struct Mind {
+struct Believer {
     id: &'static RobotId,
     robot: &'static Robot,
     inbox: &'static Inbox,
@@ -327,33 +41,22 @@ fn update_world_models(
     clock: Res<Clock>,
     pitch: Res<Pitch>,
     strategies: Res<Strategies>,
-    mut robots: Query<Mind, Without<OffPitch>>,
+    mut robots: Query<Believer, Without<OffPitch>>,
 ) {
-    for mind in &mut robots {
-        let MindItem { id, robot, inbox, percepts, odometry, handling, mut model } = mind;
+    for believer in &mut robots {
+        let BelieverItem { id, robot, inbox, percepts, odometry, handling, mut model } = believer;
         if !robot.decides(&clock) {
             continue;
         }
         let model = &mut *model;
         model.dead_reckon(odometry.pose, clock.tick);
-        let fresh = percepts.frame.as_ref().filter(|frame| Some(frame.taken) > model.last_frame);
-        if let Some(frame) = fresh {
-            let since = frame.taken - model.last_frame.unwrap_or(frame.taken);
-            model.localise(frame, &robot.sensing.eyes);
-            model.see_ball(frame, &robot.sensing.eyes, since as f32 * clock.dt);
-            model.see_robots(frame, &robot.sensing.eyes);
-            model.last_frame = Some(frame.taken);
+        if let Some(frame) = &percepts.frame {
+            model.see(frame, &robot.sensing.eyes, &clock);
         }
         if let Some(chin) = robot.kind.chin.filter(|_| handling.holds()) {
             model.feel_ball(chin.pocket(), clock.tick);
         }
-        if let (Some(ball), Some(filter), Some(last)) = (&mut model.ball, model.filter, model.last_frame) {
-            let age = (clock.tick - last) as f32 * clock.dt;
-            let (position, velocity) = roll_on(filter.position, filter.velocity, EXPECTED_ROLLING, age);
-            let half = pitch.half_size();
-            ball.position = position.clamp(-half - pitch.goal.depth, half + pitch.goal.depth);
-            ball.velocity = velocity;
-        }
+        model.roll_ball(&pitch, &clock);
         model.hear(inbox, clock.tick);
         model.forget_mates(clock.tick, clock.ticks(strategies.of(id.team).teamwork.talk.position_memory));
         model.forget(robot.sensing.memory, &clock);

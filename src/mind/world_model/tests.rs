@@ -1,5 +1,11 @@
 //! One robot's beliefs, fed with odometry and frames by hand: decisions in every third tick, frames whenever a test says so.
 
+use crate::geometry::Pose;
+use crate::geometry::Sighting;
+use crate::geometry::unit;
+use crate::geometry::wrap_angle;
+use crate::ids::Team;
+use crate::robot::Frame;
 use crate::testing::perfect_sensing;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;

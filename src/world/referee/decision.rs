@@ -127,10 +127,10 @@ impl fmt::Display for Decision {
                 write!(f, "Set play: ball to {}", Spot(*at))
             }
             Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: Some(team) } } => {
-                write!(f, "Out by {team}: ball to {}", Side(*at))
+                write!(f, "Out by {team}: ball to {}", SideName(*at))
             }
             Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: None } } => {
-                write!(f, "Out: ball to {}", Side(*at))
+                write!(f, "Out: ball to {}", SideName(*at))
             }
             Decision::RobotsPlaced { kick_off: Some(kick_off) } => {
                 write!(f, "Kick-off for {kick_off}: robots to their places")
@@ -203,9 +203,9 @@ impl fmt::Display for Spot {
 }
 
 /// A point near a side line, named by its half and side.
-struct Side(Vec2);
+struct SideName(Vec2);
 
-impl fmt::Display for Side {
+impl fmt::Display for SideName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let side = if self.0.y > 0.0 { "upper" } else { "lower" };
         match self.0.x {

@@ -8,8 +8,8 @@ mod phase;
 mod restraints;
 mod rulebook;
 mod rules;
+mod sight;
 mod state;
-mod witness;
 
 use std::collections::VecDeque;
 
@@ -30,7 +30,7 @@ use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::schedule::{Tick, TickSystems};
 use crate::world::gamecontroller::BoxNews;
-use witness::Ground;
+use sight::RefereeView;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Whistles>()
@@ -58,7 +58,7 @@ pub struct PenaltiesDue(pub Vec<RobotId>);
 
 pub(crate) fn judge(
     clock: Res<Clock>,
-    ground: Ground,
+    ground: RefereeView,
     (mut state, mut due): (ResMut<MatchState>, ResMut<PenaltiesDue>),
     (mut calls, mut whistles): (ResMut<Calls>, ResMut<Whistles>),
     news: Option<Res<BoxNews>>,
@@ -71,15 +71,15 @@ pub(crate) fn judge(
         }
     }
     if state.refereed {
-        let (laws, scene, dt) = (ground.laws(), ground.scene(), f64::from(clock.dt));
+        let (laws, sight, dt) = (ground.laws(), ground.sight(), f64::from(clock.dt));
         match &news {
-            None => referee(&laws, &scene.observation(), dt, &mut state, &mut calls.0),
+            None => referee(&laws, &sight.observation(), dt, &mut state, &mut calls.0),
             // Nothing is decided before the box has spoken.
             Some(news) => {
                 if let Some(view) = &news.view {
                     let word =
                         BoxStatement { view, silence: news.silence(&clock), is_lost: news.is_lost(&clock) };
-                    follow(&word, &laws, &scene.observation(), dt, &mut state, &mut calls.0);
+                    follow(&word, &laws, &sight.observation(), dt, &mut state, &mut calls.0);
                 }
             }
         }

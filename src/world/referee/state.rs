@@ -69,9 +69,9 @@ pub struct MatchState {
     /// Seconds of play since a robot touched the ball.
     pub(super) untouched: f64,
     /// Who holds the ball, or has just released it.
-    pub(super) hold: Option<Hold>,
+    pub(super) hold: Option<BallHold>,
     /// The robots that push opponents, or have just done so, sorted by id.
-    pub(super) pushes: Vec<(RobotId, Spell)>,
+    pub(super) pushes: Vec<(RobotId, Streak)>,
 }
 
 /// Whether the team that kicked off may score.
@@ -88,32 +88,32 @@ pub(super) enum KickOffShot {
 /// Something that a robot does for some time. A pause that is shorter than what it interrupts does not end it, and is
 /// part of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Spell {
+pub(super) struct Streak {
     /// Seconds since it began, up to when it was last seen.
     pub seconds: f64,
     /// Seconds of the present pause.
     pub paused: f64,
 }
 
-impl Spell {
-    /// Seconds of a pause that end no spell, however short it is: bodies that press on each other part for moments.
+impl Streak {
+    /// Seconds of a pause that end no streak, however short it is: bodies that press on each other part for moments.
     const FLICKER: f64 = 0.2;
 
-    /// The spell after some more seconds, none if it is over.
-    pub fn after(self, seconds: f64, goes_on: bool) -> Option<Spell> {
+    /// The streak after some more seconds, none if it is over.
+    pub fn after(self, seconds: f64, goes_on: bool) -> Option<Streak> {
         let paused = self.paused + seconds;
         if goes_on {
-            return Some(Spell { seconds: self.seconds + paused, paused: 0.0 });
+            return Some(Streak { seconds: self.seconds + paused, paused: 0.0 });
         }
-        (paused < self.seconds.max(Spell::FLICKER)).then_some(Spell { paused, ..self })
+        (paused < self.seconds.max(Streak::FLICKER)).then_some(Streak { paused, ..self })
     }
 }
 
 /// A robot that holds the ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hold {
+pub(super) struct BallHold {
     pub robot: RobotId,
-    pub spell: Spell,
+    pub streak: Streak,
     /// Where the ball was when the robot last got hold of it.
     pub from: Vec2,
     /// Metres that the robot had carried it before.
@@ -252,17 +252,17 @@ mod tests {
     }
 
     #[test]
-    fn a_spell_outlasts_pauses_that_are_shorter_than_itself_and_counts_them() {
-        let spell = Spell::default().after(1.0, true).and_then(|spell| spell.after(0.9, false)).unwrap();
-        assert_eq!(spell, Spell { seconds: 1.0, paused: 0.9 });
-        assert_eq!(spell.after(0.1, true), Some(Spell { seconds: 2.0, paused: 0.0 }));
-        assert_eq!(spell.after(0.1, false), None);
+    fn a_streak_outlasts_pauses_that_are_shorter_than_itself_and_counts_them() {
+        let streak = Streak::default().after(1.0, true).and_then(|streak| streak.after(0.9, false)).unwrap();
+        assert_eq!(streak, Streak { seconds: 1.0, paused: 0.9 });
+        assert_eq!(streak.after(0.1, true), Some(Streak { seconds: 2.0, paused: 0.0 }));
+        assert_eq!(streak.after(0.1, false), None);
     }
 
     #[test]
-    fn a_spell_that_has_just_begun_survives_a_flicker() {
-        let spell = Spell::default().after(0.1, false).unwrap();
-        assert!(spell.after(0.05, true).is_some_and(|spell| (spell.seconds - 0.15).abs() < 1e-9));
-        assert_eq!(spell.after(0.1, false), None);
+    fn a_streak_that_has_just_begun_survives_a_flicker() {
+        let streak = Streak::default().after(0.1, false).unwrap();
+        assert!(streak.after(0.05, true).is_some_and(|streak| (streak.seconds - 0.15).abs() < 1e-9));
+        assert_eq!(streak.after(0.1, false), None);
     }
 }

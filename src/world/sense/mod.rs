@@ -68,7 +68,7 @@ impl Eyesight {
 }
 
 /// Everything solid that a camera may see.
-struct Scene {
+struct Surroundings {
     ball: Vec2,
     ball_radius: f32,
     /// Drive units, with their markers.
@@ -77,13 +77,13 @@ struct Scene {
     trailers: Vec<(RobotId, Vec2, f32)>,
 }
 
-type Bodies<'w, 's> = Query<'w, 's, (&'static RobotId, &'static Robot, &'static Pose), Without<OffPitch>>;
+type SeenBodies<'w, 's> = Query<'w, 's, (&'static RobotId, &'static Robot, &'static Pose), Without<OffPitch>>;
 
 type Watching<'a> = (&'a RobotId, &'a Robot, &'a Pose, &'a Head, &'a Handling, &'a mut Eyesight);
 
 /// Where a camera looks from, and how.
 #[derive(Clone, Copy, Debug)]
-struct Gaze {
+struct CameraPose {
     from: Pose,
     pan: f32,
     chin_down: bool,
@@ -93,7 +93,7 @@ fn take_frames(
     clock: Res<Clock>,
     (state, kind): (Res<MatchState>, Res<BallKind>),
     ball: Single<&Pose, With<Ball>>,
-    bodies: Bodies,
+    bodies: SeenBodies,
     trailers: Query<(&Trailer, &Pose)>,
     mut eyes: Query<Watching, Without<OffPitch>>,
 ) {
@@ -103,14 +103,14 @@ fn take_frames(
         let team_pose = state.attacking(id.team).turn_pose(pose);
         match &robot.sensing.eyes {
             Eyes::Perfect if robot.senses(&clock) => {
-                let scene = scene.get_or_insert_with(|| Scene::of((&kind, *ball), &bodies, &trailers));
+                let scene = scene.get_or_insert_with(|| Surroundings::of((&kind, *ball), &bodies, &trailers));
                 eyesight.under_way.push_back(scene.seen_perfectly(id, pose, team_pose, clock.tick));
             }
             Eyes::Real { camera, localisation, .. } if clock.is_due(camera.frame_hz) => {
                 let dt = 1.0 / camera.frame_hz;
                 eyesight.error = eyesight.error.drift(localisation, dt, &mut eyesight.localisation_dice);
-                let scene = scene.get_or_insert_with(|| Scene::of((&kind, *ball), &bodies, &trailers));
-                let gaze = Gaze { from: pose, pan: head.pan, chin_down: handling.hides_ball() };
+                let scene = scene.get_or_insert_with(|| Surroundings::of((&kind, *ball), &bodies, &trailers));
+                let gaze = CameraPose { from: pose, pan: head.pan, chin_down: handling.hides_ball() };
                 let mut frame = scene.seen_through(camera, id, gaze, &mut eyesight.camera_dice);
                 frame.taken = clock.tick;
                 frame.fix = eyesight.error.applied(team_pose);
@@ -121,8 +121,12 @@ fn take_frames(
     }
 }
 
-impl Scene {
-    fn of((ball, pose): (&BallKind, &Pose), bodies: &Bodies, trailers: &Query<(&Trailer, &Pose)>) -> Scene {
+impl Surroundings {
+    fn of(
+        (ball, pose): (&BallKind, &Pose),
+        bodies: &SeenBodies,
+        trailers: &Query<(&Trailer, &Pose)>,
+    ) -> Surroundings {
         let mut robots: Vec<_> =
             bodies.iter().map(|(id, robot, pose)| (*id, pose.position, robot.kind.reach())).collect();
         let mut trailers: Vec<_> = (trailers.iter())
@@ -131,7 +135,7 @@ impl Scene {
         // A query's order depends on which other components robots have; dice must not.
         robots.sort_unstable_by_key(|(id, ..)| *id);
         trailers.sort_unstable_by_key(|(id, ..)| *id);
-        Scene { ball: pose.position, ball_radius: ball.radius, robots, trailers }
+        Surroundings { ball: pose.position, ball_radius: ball.radius, robots, trailers }
     }
 
     fn seen_perfectly(&self, own: RobotId, pose: Pose, team_pose: Pose, tick: u64) -> Frame {
@@ -147,7 +151,7 @@ impl Scene {
         }
     }
 
-    fn seen_through(&self, camera: &Camera, own: RobotId, gaze: Gaze, dice: &mut Dice) -> Frame {
+    fn seen_through(&self, camera: &Camera, own: RobotId, gaze: CameraPose, dice: &mut Dice) -> Frame {
         let pose = Pose { heading: gaze.from.heading + gaze.pan, ..gaze.from };
         let from_body =
             |sighting: Sighting| Sighting { bearing: wrap_angle(sighting.bearing + gaze.pan), ..sighting };
@@ -194,9 +198,9 @@ fn deliver_frames(
 /// Robots that are told to move faster than this, m/s, and that move slower than the second, are stalled.
 const STALL: (f32, f32) = (0.12, 0.04);
 
-type Moved<'a> = (&'a Robot, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
+type Reckoned<'a> = (&'a Robot, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
 
-fn read_odometry(clock: Res<Clock>, mut robots: Query<Moved, Without<OffPitch>>) {
+fn read_odometry(clock: Res<Clock>, mut robots: Query<Reckoned, Without<OffPitch>>) {
     for (robot, pose, twist, command, mut odometry) in &mut robots {
         odometry.speed = twist.linear.dot(pose.forward());
         odometry.turn_rate = twist.angular;

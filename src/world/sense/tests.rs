@@ -18,7 +18,7 @@ use crate::robot::WheelSpeeds;
 use crate::testing::{BALL, cye};
 use crate::world::referee::RuleBook;
 
-/// Bodies and eyes, moved by hand.
+/// SeenBodies and eyes, moved by hand.
 struct Bench(World);
 
 /// Eyes that miss nothing in view and make no errors.

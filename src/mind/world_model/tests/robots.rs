@@ -1,6 +1,9 @@
 //! Beliefs about the other robots.
 
 use super::*;
+use crate::geometry::Pose;
+use crate::ids::Team;
+use crate::mind::world_model::beliefs::MOST_OF_A_TEAM;
 
 fn places(model: &WorldModel, team: Team) -> Vec<Vec2> {
     model.of_team(team).collect()

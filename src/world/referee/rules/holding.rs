@@ -9,7 +9,7 @@ use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::RuleBook;
 use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
-use crate::world::referee::state::{Hold, MatchState, Spell};
+use crate::world::referee::state::{BallHold, MatchState, Streak};
 
 /// Takes off a robot that holds the ball too long or carries it too far: a field player for the time of a removal, a
 /// goalkeeper for none. The ball stays where it is.
@@ -30,31 +30,31 @@ pub(super) fn ball_holding(
     let is_keeper = robot.number == RuleBook::KEEPER;
     let at_home = is_keeper && is_in_own_area(laws, state, robot, at);
     let seconds = if at_home { limits.keeper_seconds } else { limits.field_seconds };
-    let too_long = is_over(hold.spell.seconds, seconds);
+    let too_long = is_over(hold.streak.seconds, seconds);
     let too_far = !at_home && hold.carried + hold.from.distance(observation.ball) > limits.field_distance;
     if !(too_long || too_far) {
         return;
     }
-    let beyond = (hold.spell.seconds - f64::from(seconds)).clamp(0.0, state.played);
+    let beyond = (hold.streak.seconds - f64::from(seconds)).clamp(0.0, state.played);
     let away = if is_keeper { 0.0 } else { f64::from(laws.book.removal_seconds) - beyond };
     send_off(state, decisions, robot, away, RemovalReason::BallHolding);
 }
 
 /// What is known of holding after this sample.
-fn hold(observation: &Observation, state: &MatchState, holder: Option<RobotId>) -> Option<Hold> {
+fn hold(observation: &Observation, state: &MatchState, holder: Option<RobotId>) -> Option<BallHold> {
     let ball = observation.ball;
     let known = state.hold.filter(|hold| holder.is_none_or(|robot| robot == hold.robot));
     match (known, holder) {
         (None, None) => None,
-        (None, Some(robot)) => Some(Hold { robot, spell: Spell::default(), from: ball, carried: 0.0 }),
+        (None, Some(robot)) => Some(BallHold { robot, streak: Streak::default(), from: ball, carried: 0.0 }),
         (Some(hold), Some(_)) => {
-            let from = if hold.spell.paused > 0.0 { ball } else { hold.from };
-            Some(Hold { spell: hold.spell.after(state.played, true)?, from, ..hold })
+            let from = if hold.streak.paused > 0.0 { ball } else { hold.from };
+            Some(BallHold { streak: hold.streak.after(state.played, true)?, from, ..hold })
         }
         (Some(hold), None) => {
-            let seen = state.seen_ball.filter(|_| hold.spell.paused == 0.0);
+            let seen = state.seen_ball.filter(|_| hold.streak.paused == 0.0);
             let carried = hold.carried + seen.map_or(0.0, |seen| seen.distance(hold.from));
-            Some(Hold { spell: hold.spell.after(state.played, false)?, carried, ..hold })
+            Some(BallHold { streak: hold.streak.after(state.played, false)?, carried, ..hold })
         }
     }
 }

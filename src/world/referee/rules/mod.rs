@@ -42,12 +42,12 @@ use super::state::MatchState;
 
 /// How a rule judges a sample: laws, what is seen, the seconds since the last sample, the state, and the decisions that
 /// rules have made in this sample so far.
-pub type Judge = fn(&Laws, &Observation, f64, &mut MatchState, &mut Vec<Decision>);
+pub type RuleJudge = fn(&Laws, &Observation, f64, &mut MatchState, &mut Vec<Decision>);
 
 /// One rule of play.
 pub struct Rule {
     pub name: &'static str,
-    pub judge: Judge,
+    pub judge: RuleJudge,
 }
 
 /// All rules, in order; which of them bite is for the [`RuleBook`] to say:

@@ -55,8 +55,9 @@ fn is_consistent(state: &MatchState, book: &RuleBook) {
     assert!(state.pushes.iter().all(|(robot, _)| !state.is_removed(*robot)));
     assert!(state.hold.is_none_or(|hold| !state.is_removed(hold.robot)));
     assert!(state.pushes.is_sorted_by(|(a, _), (b, _)| a < b));
-    let spells = state.pushes.iter().map(|(_, spell)| spell).chain(state.hold.iter().map(|hold| &hold.spell));
-    assert!(spells.into_iter().all(|spell| spell.seconds.is_finite() && spell.paused.is_finite()));
+    let streaks =
+        state.pushes.iter().map(|(_, streak)| streak).chain(state.hold.iter().map(|hold| &hold.streak));
+    assert!(streaks.into_iter().all(|streak| streak.seconds.is_finite() && streak.paused.is_finite()));
 }
 
 /// What happens around a ball in a four-legged match, whichever of its rules hold: who touches and who holds it, who

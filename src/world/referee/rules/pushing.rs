@@ -11,7 +11,7 @@ use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{Pushing, RuleBook};
 use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
-use crate::world::referee::state::{MatchState, Spell};
+use crate::world::referee::state::{MatchState, Streak};
 
 /// Takes off a robot that has pushed opponents for too long.
 pub(super) fn pushing(
@@ -31,16 +31,16 @@ pub(super) fn pushing(
     });
     let pushing: Vec<RobotId> = seen.map(|(robot, _)| robot).collect();
     let known = std::mem::take(&mut state.pushes);
-    let mut pushes: Vec<(RobotId, Spell)> = known
+    let mut pushes: Vec<(RobotId, Streak)> = known
         .into_iter()
-        .filter_map(|(robot, spell)| Some((robot, spell.after(state.played, pushing.contains(&robot))?)))
+        .filter_map(|(robot, streak)| Some((robot, streak.after(state.played, pushing.contains(&robot))?)))
         .collect();
     for robot in pushing {
         match pushes.binary_search_by_key(&robot, |(robot, _)| *robot) {
-            Err(place) => pushes.insert(place, (robot, Spell::default())),
+            Err(place) => pushes.insert(place, (robot, Streak::default())),
             Ok(place) if is_over(pushes[place].1.seconds, rule.seconds) => {
-                let (_, spell) = pushes.remove(place);
-                let beyond = (spell.seconds - f64::from(rule.seconds)).clamp(0.0, state.played);
+                let (_, streak) = pushes.remove(place);
+                let beyond = (streak.seconds - f64::from(rule.seconds)).clamp(0.0, state.played);
                 let away = f64::from(laws.book.removal_seconds) - beyond;
                 send_off(state, decisions, robot, away, RemovalReason::Pushing);
             }

@@ -19,7 +19,7 @@ use crate::world::physics::{Bodies, touch};
 
 /// A robot as the referee sees it.
 #[derive(QueryData)]
-pub struct Player {
+pub struct SeenRobot {
     id: &'static RobotId,
     handles: &'static RobotBodies,
     pose: &'static Pose,
@@ -28,40 +28,40 @@ pub struct Player {
     handling: &'static Handling,
 }
 
-type Players<'w, 's> = Query<'w, 's, Player, Without<OffPitch>>;
-type SeenBall = (&'static Pose, &'static RapierRigidBodyHandle);
+type Players<'w, 's> = Query<'w, 's, SeenRobot, Without<OffPitch>>;
+type BallBody = (&'static Pose, &'static RapierRigidBodyHandle);
 
 /// All that the referee looks at.
 #[derive(SystemParam)]
-pub(crate) struct Ground<'w, 's> {
+pub(crate) struct RefereeView<'w, 's> {
     pitch: Res<'w, Pitch>,
     book: Res<'w, RuleBook>,
     bodies: Bodies<'w, 's>,
     simulation: Single<'w, 's, &'static RapierContextSimulation>,
     kind: Res<'w, BallKind>,
-    ball: Single<'w, 's, SeenBall, With<Ball>>,
+    ball: Single<'w, 's, BallBody, With<Ball>>,
     players: Players<'w, 's>,
 }
 
-impl Ground<'_, '_> {
+impl RefereeView<'_, '_> {
     pub(super) fn laws(&self) -> Laws<'_> {
         Laws { pitch: &self.pitch, book: &self.book, ball_radius: self.kind.radius }
     }
 
     /// Contacts and motion only where a rule asks for them.
-    pub(super) fn scene(&self) -> Scene {
+    pub(super) fn sight(&self) -> Sight {
         let (pose, body) = *self.ball;
         if self.book.watches_contacts() {
-            Scene::whole((pose, body), &self.players, &self.bodies, &self.simulation)
+            Sight::whole((pose, body), &self.players, &self.bodies, &self.simulation)
         } else {
-            Scene::of_places(pose.position, &self.players)
+            Sight::of_places(pose.position, &self.players)
         }
     }
 }
 
 /// Everything that happens between bodies.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Scene {
+pub(super) struct Sight {
     ball: Vec2,
     robots: SmallVec<[(RobotId, Vec2); 8]>,
     touching: SmallVec<[RobotId; 4]>,
@@ -75,13 +75,13 @@ const SHOVE: f32 = 0.05;
 /// Slower robots stand still, m/s and rad/s.
 const STILL: (f32, f32) = (0.02, 0.1);
 
-impl Scene {
+impl Sight {
     /// Places alone: all that the rules of walled pitches ask for.
-    fn of_places(ball: Vec2, players: &Players) -> Scene {
+    fn of_places(ball: Vec2, players: &Players) -> Sight {
         let mut robots: SmallVec<[(RobotId, Vec2); 8]> =
             players.iter().map(|player| (*player.id, player.pose.position)).collect();
         robots.sort_unstable_by_key(|(id, _)| *id);
-        Scene { ball, robots, ..Scene::default() }
+        Sight { ball, robots, ..Sight::default() }
     }
 
     /// Also contacts and motion.
@@ -90,29 +90,29 @@ impl Scene {
         players: &Players,
         bodies: &Bodies,
         simulation: &RapierContextSimulation,
-    ) -> Scene {
-        let mut scene = Scene::of_places(ball.0.position, players);
+    ) -> Sight {
+        let mut sight = Sight::of_places(ball.0.position, players);
         let contact = |a: &RapierRigidBodyHandle, b: &RapierRigidBodyHandle| touch(simulation, bodies, a, b);
         for player in players {
             let id = *player.id;
             if contact(&player.handles.unit, ball.1) {
-                scene.touching.push(id);
+                sight.touching.push(id);
             }
             if player.handling.holds() {
-                scene.held_by = Some(id);
+                sight.held_by = Some(id);
             }
             if player.twist.linear.length() < STILL.0 && player.twist.angular.abs() < STILL.1 {
-                scene.still.push(id);
+                sight.still.push(id);
             }
             let wanted = player.pose.forward().rotate(player.command.velocity());
             for other in players.iter().filter(|other| other.id.team != id.team) {
                 let way = (other.pose.position - player.pose.position).normalize_or_zero();
                 if wanted.dot(way) > SHOVE && contact(&player.handles.unit, &other.handles.unit) {
-                    scene.shoving.push((id, *other.id));
+                    sight.shoving.push((id, *other.id));
                 }
             }
         }
-        scene
+        sight
     }
 
     pub fn observation(&self) -> Observation<'_> {
