@@ -1,5 +1,7 @@
 //! The whole interface laid out without a window or a graphics adapter, in windows and with panels that people may have.
 
+mod silent_robots;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -44,6 +46,8 @@ struct LaidOutFrame {
     layers: Vec<(egui::Order, Vec<Rect>)>,
     /// Texts, and whether each is seen whole.
     texts: Vec<(String, bool)>,
+    /// The grounds of panels and the like, with their colours.
+    grounds: Vec<(Rect, egui::Color32)>,
     /// Of the pitch; nothing in the menu.
     free: Rect,
 }
@@ -117,7 +121,11 @@ impl LaidOutWindow {
         self.app.world_mut().run_schedule(EguiPrimaryContextPass);
         let output = self.ctx.end_pass();
         let mut texts = Vec::new();
+        let mut grounds = Vec::new();
         for clipped in &output.shapes {
+            if let egui::Shape::Rect(ground) = &clipped.shape {
+                grounds.push((ground.rect.intersect(clipped.clip_rect), ground.fill));
+            }
             collect_texts(&clipped.shape, clipped.clip_rect.intersect(screen), &mut texts);
         }
         self.ctx.tessellate(output.shapes, output.pixels_per_point);
@@ -127,7 +135,7 @@ impl LaidOutWindow {
         });
         let in_match = self.app.world().resource::<Session>().plan.is_some();
         let free = if in_match { self.app.world().resource::<FreeArea>().0 } else { Rect::NOTHING };
-        LaidOutFrame { screen, layers, texts, free }
+        LaidOutFrame { screen, layers, texts, grounds, free }
     }
 }
 

@@ -42,7 +42,7 @@ pub fn ask(world: &mut World) {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use std::net::{Ipv4Addr, UdpSocket};
     use std::path::Path;
     use std::time::Duration;
@@ -58,10 +58,10 @@ mod tests {
     use crate::ids::Team;
     use crate::robot::Robot;
 
-    const REMOTE: RobotId = RobotId::new(Team::Home, 1);
+    pub const REMOTE: RobotId = RobotId::new(Team::Home, 1);
 
     /// Writes where robots and this match are: at free ports, but for the remote robot, whose socket never answers.
-    fn write_addresses(file: &Path) -> UdpSocket {
+    pub fn write_addresses(file: &Path) -> UdpSocket {
         let free = || UdpSocket::bind((Ipv4Addr::LOCALHOST, 0)).expect("a free port");
         let silent = free();
         let mut lines = Vec::new();
