@@ -31,3 +31,18 @@ pub(super) fn plugin(app: &mut App) {
 fn played(app: &mut App) {
     app.add_plugins((state::plugin, picture::plugin, time::plugin));
 }
+
+/// The same as an app of its own, which plays a match in frames of this length.
+#[cfg(test)]
+fn played_without_a_window(choice: &crate::game::Choice, frame: std::time::Duration) -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, AssetPlugin::default(), bevy::state::app::StatesPlugin));
+    app.init_asset::<Mesh>().init_asset::<ColorMaterial>().add_plugins((crate::game::simulation, played));
+    app.insert_resource(bevy::time::TimeUpdateStrategy::ManualDuration(frame));
+    let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
+    app.insert_resource(state::Folder(crate::data::AssetFolder::new(assets)));
+    app.insert_resource(state::PendingMatch(Some(state::MatchRequest::Match(choice.clone()))));
+    app.finish();
+    app.cleanup();
+    app
+}

@@ -4,8 +4,8 @@
 use bevy_egui::egui::{self, Align2, Pos2, Rect, RichText, Stroke, pos2, vec2};
 
 use super::booking_beliefs::{BookingBelief, story};
-use super::chart::{LANE, NAMES, TIMES, paint_times, show_spans};
 use super::history::HistorySpan;
+use super::lanes::{TEXT, show_lanes, show_spans};
 use super::layout::Axes;
 use super::{RadioData, RadioView};
 use crate::app::view::{colours, format};
@@ -37,29 +37,16 @@ pub fn show(
         ui.separator();
         show_figures(ui, &heard.record.bookings[team.index()]);
     });
-    let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
-    let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
-    let chart = Rect::from_min_max(rect.min + vec2(NAMES, 0.0), rect.max - vec2(4.0, TIMES));
-    let axes = Axes {
-        rect: chart,
-        now: heard.clock.tick as f64 - 1.0 + f64::from(heard.pace.between),
-        span: f64::from(view.span.seconds()) / f64::from(heard.clock.dt),
-        lanes: robots.len(),
-    };
-    let painter = ui.painter_at(chart);
-    painter.rect_filled(chart, 3.0, colours::egui(colours::SUNKEN));
-    paint_times(ui.painter(), &axes, heard.clock.dt);
+    let (axes, response) = show_lanes(ui, robots.len(), heard, view);
+    let painter = ui.painter_at(axes.rect);
     for (lane, (robot, condition)) in robots.iter().enumerate() {
-        let at = pos2(rect.left() + 2.0, axes.y(lane));
+        let at = pos2(response.rect.left() + 2.0, axes.y(lane));
         let colour = colours::egui(colours::team_text(robot.team));
         let colour = if condition.crashed { colour.gamma_multiply(0.5) } else { colour };
-        let font = egui::FontId::proportional(13.0);
+        let font = egui::FontId::proportional(TEXT);
         ui.painter().text(at, Align2::LEFT_CENTER, format!("{robot} believes"), font, colour);
-        painter.hline(
-            chart.x_range(),
-            axes.y(lane),
-            (1.0, colours::egui(colours::QUIET).gamma_multiply(0.3)),
-        );
+        let quiet = colours::egui(colours::QUIET).gamma_multiply(0.3);
+        painter.hline(axes.rect.x_range(), axes.y(lane), (1.0, quiet));
     }
     let told = paint_beliefs(&painter, &axes, robots, heard, response.hover_pos());
     if let Some(told) = told {
@@ -83,7 +70,7 @@ fn paint_beliefs(
         painter.rect_filled(bar, 2.0, colour);
         let seen = bar.intersect(axes.rect);
         if seen.width() > NUMBERED && span.what.goes {
-            let font = egui::FontId::proportional(13.0);
+            let font = egui::FontId::proportional(TEXT);
             let ink = colours::egui(colours::ROBOT);
             painter.text(seen.center(), Align2::CENTER_CENTER, span.what.booker, font, ink);
         }
@@ -119,7 +106,7 @@ fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Condition)]) {
     for (robot, _) in robots {
         let (rect, response) = ui.allocate_exact_size(vec2(18.0, 16.0), egui::Sense::hover());
         ui.painter().rect_filled(rect, 2.0, colours::egui(colours::number(robot.number)));
-        let font = egui::FontId::proportional(13.0);
+        let font = egui::FontId::proportional(TEXT);
         let ink = colours::egui(colours::ROBOT);
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, robot.number, font, ink);
         response.on_hover_text(format!(

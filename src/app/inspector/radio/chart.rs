@@ -5,20 +5,16 @@ use bevy_egui::egui::{self, Align2, Color32, Pos2, Rect, RichText, Stroke, pos2,
 
 use super::filter::is_of_a_swap;
 use super::history::HistorySpan;
+use super::lanes::{NAMES, TEXT, show_lanes, show_spans};
 use super::layout::{Arrow, Axes, End, Labels};
 use super::locks::{attempt_story, lock_story};
-use super::{ChartSpan, RadioData, RadioView, words};
+use super::{RadioData, RadioView, words};
 use crate::app::view::colours;
 use crate::comms::messages::MessageKind;
 use crate::comms::radio::Transmission;
 use crate::ids::RobotId;
 use crate::robot::Condition;
 
-/// Width of the robots' names before the lanes, and height of the times below them, in points.
-pub const NAMES: f32 = 106.0;
-pub const TIMES: f32 = 18.0;
-/// The least height of a lane, in points.
-pub const LANE: f32 = 20.0;
 /// A message may have been sent so long before the time that is shown and arrive within it, s.
 const LONGEST_WAY: f32 = 4.0;
 /// The pointer means an arrow that is no farther away than this, in points.
@@ -26,28 +22,17 @@ const NEAR: f32 = 5.0;
 /// More arrows than this are drawn without tips and labels; than the first, with labels of role swaps only.
 const CROWDED: usize = 150;
 const MANY: usize = 700;
-const TEXT: f32 = 13.0;
 
 pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, view: &mut RadioView) {
     show_filters(ui, view);
-    let room = ui.available_size().max(vec2(200.0, robots.len() as f32 * LANE + TIMES));
-    let (rect, response) = ui.allocate_exact_size(room, egui::Sense::hover());
-    let chart = Rect::from_min_max(rect.min + vec2(NAMES, 0.0), rect.max - vec2(4.0, TIMES));
     let lanes: Vec<RobotId> = robots.iter().map(|(robot, _)| *robot).collect();
-    let axes = Axes {
-        rect: chart,
-        now: heard.clock.tick as f64 - 1.0 + f64::from(heard.pace.between),
-        span: f64::from(view.span.seconds()) / f64::from(heard.clock.dt),
-        lanes: lanes.len(),
-    };
-    show_names(ui, rect, &axes, robots, view);
-    let painter = ui.painter_at(chart);
-    painter.rect_filled(chart, 3.0, colours::egui(colours::SUNKEN));
-    paint_times(ui.painter(), &axes, heard.clock.dt);
+    let (axes, response) = show_lanes(ui, lanes.len(), heard, view);
+    show_names(ui, response.rect, &axes, robots, view);
+    let painter = ui.painter_at(axes.rect);
     for (lane, robot) in lanes.iter().enumerate() {
         let shown = view.filter.shows(*robot);
         let colour = colours::egui(colours::QUIET).gamma_multiply(if shown { 0.6 } else { 0.2 });
-        painter.hline(chart.x_range(), axes.y(lane), (1.0, colour));
+        painter.hline(axes.rect.x_range(), axes.y(lane), (1.0, colour));
     }
     let told_of_lock = paint_locks(&painter, &axes, &lanes, heard, response.hover_pos());
     let told = paint_messages(&painter, &axes, &lanes, heard, view, response.hover_pos());
@@ -68,15 +53,6 @@ fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
         ui.separator();
         show_key(ui);
     });
-}
-
-/// The time that the charts show.
-pub fn show_spans(ui: &mut egui::Ui, view: &mut RadioView) {
-    ui.weak("Last");
-    for span in ChartSpan::ALL {
-        let tip = "The time from the left edge to the right one";
-        ui.selectable_value(&mut view.span, span, format!("{} s", span.seconds())).on_hover_text(tip);
-    }
 }
 
 /// How lost and late messages and locks look.
@@ -115,23 +91,6 @@ fn show_names(
         let tip = "Whether messages from and to this robot are shown, here and on the pitch";
         if inner.checkbox(&mut shown, name).on_hover_text(tip).changed() {
             view.filter.show(*robot, shown);
-        }
-    }
-}
-
-/// Writes the times below the lanes, with a faint line through them at each.
-pub fn paint_times(painter: &egui::Painter, axes: &Axes, dt: f32) {
-    let quiet = colours::egui(colours::QUIET);
-    let (marks, _) = axes.marks(dt);
-    for mark in marks {
-        let x = axes.x(mark as f64);
-        painter.vline(x, axes.rect.y_range(), (1.0, quiet.gamma_multiply(0.18)));
-        let seconds = (mark as f64 * f64::from(dt)).round();
-        let text = format!("{seconds} s");
-        let at = pos2(x, axes.rect.bottom() + 2.0);
-        let half = 18.0;
-        if x - half > axes.rect.left() && x + half < axes.rect.right() + 4.0 {
-            painter.text(at, Align2::CENTER_TOP, text, egui::FontId::proportional(TEXT), quiet);
         }
     }
 }

@@ -6,6 +6,7 @@ mod bookings;
 mod chart;
 mod filter;
 mod history;
+mod lanes;
 mod layout;
 mod locks;
 mod robots;

@@ -34,7 +34,7 @@ impl Keyboard {
         self.written.get(&place).cloned().unwrap_or_else(|| us_name(place))
     }
 
-    pub(super) fn press(&self, press: Press) -> String {
+    fn press(&self, press: Press) -> String {
         match press {
             Press::Place(place) => self.name(place),
             Press::Shifted(place) => format!("Shift+{}", self.name(place)),
@@ -83,7 +83,7 @@ fn us_name(place: KeyCode) -> String {
 }
 
 /// Digits are printed on their places wherever Latin is written, although some layouts write them with Shift only.
-pub(super) fn is_digit(place: KeyCode) -> bool {
+fn is_digit(place: KeyCode) -> bool {
     us_name(place).starts_with(|first: char| first.is_ascii_digit())
 }
 
@@ -161,7 +161,7 @@ mod tests {
     fn a_tip_names_its_keys() {
         let keyboard = Keyboard::default();
         assert_eq!(keyboard.tip(Action::PlayOrPause), "Pause, or play on (Space or P)");
-        assert_eq!(keyboard.tip(Action::PreviousRobot), "Previous robot (Shift+Tab)");
+        assert_eq!(keyboard.tip(Action::PreviousRobot), "Previous robot; your seat moves along (Shift+Tab)");
         assert_eq!(keyboard.tip(Action::Leave), "Back to the menu");
     }
 }

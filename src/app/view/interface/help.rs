@@ -6,7 +6,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 use super::dock::show_in_the_middle;
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::input::keyboard::Keyboard;
-use crate::app::view::input::keys::{Deed, bindings};
+use crate::app::view::input::keys::{Deed, MOUSE, bindings};
 use crate::app::view::state::{Action, OpenDialogues, PanelSystems, Screen};
 
 pub(super) fn plugin(app: &mut App) {
@@ -15,10 +15,6 @@ pub(super) fn plugin(app: &mut App) {
         show_help.in_set(PanelSystems::Floating).run_if(in_state(Screen::Match)),
     );
 }
-
-/// What the mouse does.
-const MOUSE: [(&str, &str); 3] =
-    [("Click", "Select a robot"), ("Drag", "Move the pitch"), ("Wheel", "Zoom at the pointer")];
 
 /// A narrower window has the keys in one column, in points.
 const TWO_COLUMNS: f32 = 860.0;

@@ -71,32 +71,16 @@ fn is_over(world: &World) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use bevy::state::app::StatesPlugin;
-    use bevy::time::TimeUpdateStrategy;
-
     use super::*;
     use crate::app::view::picture::visuals::BodyVisual;
-    use crate::app::view::state::{Folder, MatchRequest, PendingMatch};
+    use crate::app::view::played_without_a_window;
+    use crate::app::view::state::{MatchRequest, PendingMatch};
     use crate::data::AssetFolder;
     use crate::game::record::Record;
     use crate::game::{Choice, Match, MatchPlan};
 
     fn assets() -> AssetFolder {
         AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"))
-    }
-
-    /// The window's match without a window, with frames of this length.
-    fn window(choice: &Choice, frame: Duration) -> App {
-        let mut app = App::new();
-        app.add_plugins((MinimalPlugins, AssetPlugin::default(), StatesPlugin));
-        app.init_asset::<Mesh>().init_asset::<ColorMaterial>();
-        app.add_plugins((crate::game::simulation, crate::app::view::played));
-        app.insert_resource(TimeUpdateStrategy::ManualDuration(frame));
-        app.insert_resource(Folder(assets()))
-            .insert_resource(PendingMatch(Some(MatchRequest::Match(choice.clone()))));
-        app.finish();
-        app.cleanup();
-        app
     }
 
     #[test]
@@ -108,7 +92,7 @@ mod tests {
             headless.tick();
         }
         for (milliseconds, speed) in [(7, 3), (50, 6)] {
-            let mut app = window(&choice, Duration::from_millis(milliseconds));
+            let mut app = played_without_a_window(&choice, Duration::from_millis(milliseconds));
             app.world_mut().resource_mut::<Playback>().speed = speed;
             for _ in 0..20_000 {
                 app.update();
@@ -131,7 +115,7 @@ mod tests {
         };
         let plan = MatchPlan::read(&assets(), &choice).expect("the four-legged match");
         let mut headless = Match::new(&plan);
-        let mut app = window(&choice, Duration::from_millis(50));
+        let mut app = played_without_a_window(&choice, Duration::from_millis(50));
         for _ in 0..60 {
             app.update();
         }
@@ -150,7 +134,7 @@ mod tests {
         let wires = net::WirePlan { announce: ears.local_addr().ok(), ..Default::default() };
         let wires = Box::new(wires);
         let choice = Choice { half_minutes: Some(0.5), seed: 3, wires, ..Choice::default() };
-        let mut app = window(&choice, Duration::from_millis(100));
+        let mut app = played_without_a_window(&choice, Duration::from_millis(100));
         let heard = |app: &mut App, frames| {
             (0..frames).for_each(|_| app.update());
             std::iter::from_fn(|| ears.recv(&mut [0; 300]).ok()).count()
@@ -177,7 +161,7 @@ mod tests {
     #[test]
     fn a_match_is_drawn_once_and_cleared_away_for_the_next() {
         let choice = Choice { seed: 3, ..Choice::default() };
-        let mut app = window(&choice, Duration::from_millis(16));
+        let mut app = played_without_a_window(&choice, Duration::from_millis(16));
         let count = |app: &mut App| app.world_mut().query::<&BodyVisual>().iter(app.world()).count();
         app.update();
         let first = count(&mut app);

@@ -47,12 +47,8 @@ pub mod tests {
     use std::path::Path;
     use std::time::Duration;
 
-    use bevy::state::app::StatesPlugin;
-    use bevy::time::TimeUpdateStrategy;
-
     use super::*;
-    use crate::app::view::state::{Folder, MatchRequest, PendingMatch};
-    use crate::data::AssetFolder;
+    use crate::app::view::played_without_a_window;
     use crate::game::Choice;
     use crate::game::net::WirePlan;
     use crate::ids::Team;
@@ -91,15 +87,7 @@ pub mod tests {
         let wires = WirePlan { udp: true, remote: vec![REMOTE], ..WirePlan::default() };
         let choice =
             Choice { wires: Box::new(wires), addresses: Some(addresses), seed: 3, ..Choice::default() };
-        let mut app = App::new();
-        app.add_plugins((MinimalPlugins, AssetPlugin::default(), StatesPlugin));
-        app.init_asset::<Mesh>().init_asset::<ColorMaterial>();
-        app.add_plugins((crate::game::simulation, crate::app::view::played));
-        app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
-        app.insert_resource(Folder(AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"))));
-        app.insert_resource(PendingMatch(Some(MatchRequest::Match(choice))));
-        app.finish();
-        app.cleanup();
+        let mut app = played_without_a_window(&choice, Duration::from_millis(50));
         for _ in 0..10 {
             app.update();
         }
