@@ -304,6 +304,44 @@ pub enum Schema {
     Constant(Vec2),
 }
 
+/// What a schema does to a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SchemaKind {
+    Attraction,
+    Repulsion,
+    Detour,
+    Handling,
+    Unguided,
+}
+
+impl Schema {
+    /// What it does to a robot.
+    pub fn kind(&self) -> SchemaKind {
+        match self {
+            Schema::GoTo { .. } | Schema::GoToAll { .. } | Schema::AttractNear { .. } => {
+                SchemaKind::Attraction
+            }
+            Schema::Avoid { .. } => SchemaKind::Repulsion,
+            Schema::Swirl { .. } | Schema::SwirlLeft { .. } | Schema::GeoField { .. } => SchemaKind::Detour,
+            Schema::DockBehind { .. } | Schema::Dribble { .. } => SchemaKind::Handling,
+            Schema::Noise { .. } | Schema::Constant(_) => SchemaKind::Unguided,
+        }
+    }
+}
+
+impl SchemaKind {
+    /// For people.
+    pub fn words(self) -> &'static str {
+        match self {
+            SchemaKind::Attraction => "draws the robot to a place",
+            SchemaKind::Repulsion => "keeps the robot away from things",
+            SchemaKind::Detour => "leads the robot around things",
+            SchemaKind::Handling => "works at the ball",
+            SchemaKind::Unguided => "heeds nothing around the robot",
+        }
+    }
+}
+
 fn ball() -> Point {
     Point::Ball
 }
@@ -314,4 +352,20 @@ fn enter_cone() -> f32 {
 
 fn leave_cone() -> f32 {
     75.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn attraction_and_repulsion_are_told_from_the_rest() {
+        let go = Schema::GoTo { target: Point::Ball, controlled_zone: 0.0, dead_zone: 0.0 };
+        let avoid = Schema::Avoid { of: Points::Walls, sphere: 1.0, safety: 0.5 };
+        let swirl = Schema::SwirlLeft { around: Points::Opponents, sphere: 1.0, safety: 0.5 };
+        let dribble = Schema::Dribble { ball: Point::Ball, toward: Point::TheirGoal, tight: 25.0 };
+        let kinds = [&go, &avoid, &swirl, &dribble, &Schema::Constant(Vec2::X)].map(Schema::kind);
+        use SchemaKind::{Attraction, Detour, Handling, Repulsion, Unguided};
+        assert_eq!(kinds, [Attraction, Repulsion, Detour, Handling, Unguided]);
+    }
 }

@@ -1,7 +1,7 @@
 //! The inspector: what goes on inside one robot, in a panel beside the pitch and drawn on it.
 //!
-//! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: matching, kinds of schemas,
-//! outlines.
+//! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: matching,
+//! outlines, calibration.
 
 mod calibration;
 mod communication;
@@ -12,7 +12,6 @@ mod overlays;
 mod panel;
 mod pending;
 mod radio;
-mod schema_kinds;
 mod sections;
 mod subject;
 mod table;

@@ -4,6 +4,7 @@ use bevy::prelude::*;
 use bevy_egui::egui;
 
 use crate::ids::Team;
+use crate::strategy::language::SchemaKind;
 
 const fn rgb(hex: u32) -> Color {
     let [_, red, green, blue] = hex.to_be_bytes();
@@ -81,6 +82,17 @@ pub const fn team_text(team: Team) -> Color {
     }
 }
 
+/// The colour of a schema's vector: green draws, red repels, ambers do neither.
+pub const fn schema(kind: SchemaKind) -> Color {
+    match kind {
+        SchemaKind::Attraction => rgb(0x5C_D6_5C),
+        SchemaKind::Repulsion => rgb(0xF0_52_4F),
+        SchemaKind::Detour => rgb(0xF5_9E_1B),
+        SchemaKind::Handling => rgb(0xFF_D1_66),
+        SchemaKind::Unguided => rgb(0xC8_A2_6B),
+    }
+}
+
 /// The colour of a robot's number among its team mates, where it tells who has booked the ball.
 pub fn number(number: u8) -> Color {
     const COLOURS: [u32; 8] =
@@ -108,5 +120,19 @@ mod tests {
     fn the_teams_differ_in_lightness_as_well() {
         let lightness = |of: Team| Oklcha::from(team(of)).lightness;
         assert!(lightness(Team::Away) - lightness(Team::Home) > 0.08);
+    }
+
+    #[test]
+    fn every_kind_of_schema_every_team_and_every_number_has_a_colour_of_its_own() {
+        use SchemaKind::{Attraction, Detour, Handling, Repulsion, Unguided};
+        let mut seen = [Attraction, Repulsion, Detour, Handling, Unguided].map(schema).to_vec();
+        seen.extend(Team::BOTH.map(team));
+        seen.push(SUM);
+        seen.extend((0..8).map(number));
+        let mut seen: Vec<_> = seen.into_iter().map(|colour| egui(colour).to_array()).collect();
+        let all = seen.len();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(seen.len(), all);
     }
 }

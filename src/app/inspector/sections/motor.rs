@@ -5,7 +5,6 @@ use bevy_egui::egui::{self, RichText};
 
 use super::PanelActions;
 use crate::app::inspector::pending::Pending;
-use crate::app::inspector::schema_kinds::SchemaKind;
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::inspector::table::{self, Column, figures, words};
 use crate::app::inspector::tuner::{RESET, ROW, Tuner};
@@ -74,13 +73,13 @@ fn schema(
     ends: Attacking,
     desk: &mut PanelActions,
 ) {
-    let kind = SchemaKind::of(&term.schema);
+    let kind = term.schema.kind();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let fixed = ICON + 2.0 * FIGURE + SLIDER + VALUE + RESET + 3.0 * 4.0;
         let room = egui::vec2((ui.available_width() - fixed).max(40.0) + ICON + 2.0 * FIGURE, ROW);
         ui.allocate_ui(room, |ui| {
-            vector_row(ui, &term.name, vector.unwrap_or_default(), kind.colour(), ends)
+            vector_row(ui, &term.name, vector.unwrap_or_default(), colours::schema(kind), ends)
                 .on_hover_text(format!("{}: {}", term.name, kind.words()));
         });
         weight(ui, place, term.weight, desk);
