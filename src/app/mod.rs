@@ -6,6 +6,7 @@ mod headless_check;
 #[cfg(feature = "window")]
 pub mod inspector;
 pub mod logging;
+pub mod match_request;
 #[cfg(feature = "window")]
 pub mod view;
 #[cfg(feature = "window")]

@@ -5,13 +5,12 @@ use bevy::prelude::*;
 use bevy::window::{PresentMode, WindowResolution};
 use bevy_egui::EguiPlugin;
 
+use crate::app::match_request::MatchRequest;
 use crate::app::view::interface::{settings, window_size};
 use crate::app::view::state::{Folder, PendingMatch};
 use crate::app::view::time::expectations;
 use crate::app::{inspector, logging, view};
 use crate::data::AssetFolder;
-
-pub use super::view::state::MatchRequest;
 
 /// How the window came to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

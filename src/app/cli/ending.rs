@@ -4,6 +4,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use serde::Serialize;
 use thiserror::Error;
 
 use crate::data::DataError;
@@ -82,6 +83,12 @@ impl CommandError {
 /// Writes a line to the standard error stream; if nobody reads it, there is nobody to be told.
 pub(super) fn tell(line: impl std::fmt::Display) {
     let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Prints a result for machines.
+pub(super) fn print_json(result: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, result)?;
+    writeln!(out)
 }
 
 /// Prints what is wrong with the arguments of this process, or the help that they ask for.

@@ -16,7 +16,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use serde::Serialize;
 
 use crate::data::AssetFolder;
 use ending::{CommandError, EXIT_CODES, Ending};
@@ -75,12 +74,6 @@ impl Cli {
         out.flush()?;
         Ok(ending)
     }
-}
-
-/// Prints a result for machines.
-fn print_json(result: &impl Serialize, out: &mut impl Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, result)?;
-    writeln!(out)
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use clap::Args;
 use crate::app::cli::ending::{CommandError, Ending, tell};
 use crate::app::cli::interrupt::Interrupt;
 use crate::app::cli::options::{HostOptions, MatchOptions, SeedOption};
+use crate::app::match_request::MatchRequest;
 use crate::data::{AssetFolder, AssetKind, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
@@ -86,8 +87,6 @@ impl PlayCommand {
 
 #[cfg(feature = "window")]
 use crate::app::headless_check::missing_for_a_window;
-#[cfg(feature = "window")]
-use crate::app::window::MatchRequest;
 
 #[cfg(feature = "window")]
 fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Ending {
@@ -98,14 +97,6 @@ fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Ending {
         WindowEnd::Interrupted => Ending::Interrupted,
         WindowEnd::Failed => Ending::WindowFailed,
     }
-}
-
-/// What would be shown.
-#[cfg(not(feature = "window"))]
-#[expect(dead_code, reason = "a build without a window shows nothing")]
-enum MatchRequest {
-    Match(Choice),
-    Scenario { path: std::path::PathBuf, seed: Option<u64> },
 }
 
 #[cfg(not(feature = "window"))]

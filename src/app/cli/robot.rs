@@ -56,7 +56,7 @@ impl Robot {
         let patience = self.options.patience();
         let report = RobotProcess::open(&plan, id, bind)?.play(patience, &|| interrupt.is_asked())?;
         if self.json {
-            super::print_json(&report, out)?;
+            super::ending::print_json(&report, out)?;
         } else {
             print(&report, out)?;
         }

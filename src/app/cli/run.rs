@@ -176,7 +176,7 @@ pub(super) fn play_headless(
     net::finish(game.world_mut());
     let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
     if json {
-        super::print_json(&report, out)?;
+        super::ending::print_json(&report, out)?;
     } else {
         report.print(out)?;
     }

@@ -31,7 +31,7 @@ struct Changes<'w> {
     inspector: ResMut<'w, Inspector>,
     requests: ResMut<'w, Requests>,
     piloted: ResMut<'w, Piloted>,
-    levers: ResMut<'w, ManualControl>,
+    control: ResMut<'w, ManualControl>,
     sizes: ResMut<'w, PanelSizes>,
     remembered: ResMut<'w, RememberedPanels>,
     keyboard: Res<'w, Keyboard>,
@@ -74,10 +74,10 @@ fn dock(
 
 fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
     set_close(ui);
-    let mut desk = PanelActions {
+    let mut actions = PanelActions {
         requests: &mut changes.requests,
         piloted: &mut changes.piloted,
-        levers: &mut changes.levers,
+        control: &mut changes.control,
         file: changes.session.plan.as_ref().map(|plan| plan.team(robot.id.team)),
         open: &mut changes.inspector.open,
         playing: &mut changes.remembered.playing,
@@ -86,9 +86,11 @@ fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
     // In a small window it is no wider than there is room, and scrolls.
     egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
         ui.set_min_width(WIDTH.0 - MARGIN.sum().x);
-        sections::draw_head(ui, robot, &mut desk);
+        sections::draw_head(ui, robot, &mut actions);
         ui.separator();
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| sections::draw(ui, robot, &mut desk));
+        egui::ScrollArea::vertical()
+            .auto_shrink(false)
+            .show(ui, |ui| sections::draw(ui, robot, &mut actions));
     });
 }
 

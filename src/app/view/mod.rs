@@ -41,7 +41,9 @@ fn played_without_a_window(choice: &crate::game::Choice, frame: std::time::Durat
     app.insert_resource(bevy::time::TimeUpdateStrategy::ManualDuration(frame));
     let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/assets");
     app.insert_resource(state::Folder(crate::data::AssetFolder::new(assets)));
-    app.insert_resource(state::PendingMatch(Some(state::MatchRequest::Match(choice.clone()))));
+    app.insert_resource(state::PendingMatch(Some(crate::app::match_request::MatchRequest::Match(
+        choice.clone(),
+    ))));
     app.finish();
     app.cleanup();
     app

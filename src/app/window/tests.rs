@@ -15,10 +15,11 @@ use bevy_egui::{EguiContext, EguiPrimaryContextPass, EguiUserTextures, PrimaryEg
 use egui::{Rect, vec2};
 use proptest::prelude::*;
 
+use crate::app::match_request::MatchRequest;
 use crate::app::view::interface::window_size::{NEEDED, pixels_a_point};
 use crate::app::view::state::{
-    Action, FileError, Folder, FreeArea, Inspector, MatchRequest, OpenDialogues, Overlay, Overlays, PITCH,
-    PendingMatch, Piloted, Playback, Question, Selected, Session,
+    Action, FileError, Folder, FreeArea, Inspector, OpenDialogues, Overlay, Overlays, PITCH, PendingMatch,
+    Piloted, Playback, Question, Selected, Session,
 };
 use crate::app::{inspector, view};
 use crate::data::{AssetFolder, AssetKind};

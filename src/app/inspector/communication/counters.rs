@@ -79,22 +79,22 @@ mod tests {
         counters.sent(Module::BALL_BOOKING, DataType::BOOK, 12, 3);
         counters.dropped(Module::BALL_BOOKING, DataType::BOOK, Dropped::TooLarge);
         counters.foreign();
-        let mut tally = SummedCounters::default();
-        tally.name([(Module::GOALIE, DataType::GOALIE_NEWS)].into_iter());
-        (0..2).for_each(|_| tally.add(&counters));
-        let book = tally.types[&(Module::BALL_BOOKING, DataType::BOOK)];
+        let mut sums = SummedCounters::default();
+        sums.name([(Module::GOALIE, DataType::GOALIE_NEWS)].into_iter());
+        (0..2).for_each(|_| sums.add(&counters));
+        let book = sums.types[&(Module::BALL_BOOKING, DataType::BOOK)];
         assert_eq!((book.messages_sent, book.bytes_sent, book.datagrams_sent), (2, 24, 6));
         assert_eq!(book.dropped_as(Dropped::TooLarge), 2);
-        assert_eq!((tally.types.len(), tally.foreign, tally.total().messages_sent), (2, 2, 2));
+        assert_eq!((sums.types.len(), sums.foreign, sums.total().messages_sent), (2, 2, 2));
     }
 
     #[test]
     fn queues_are_added_up_module_by_module() {
         let counters = QueueCounters { put_in: 5, handed_over: 3, dropped: 1 };
-        let mut tally = SummedCounters::default();
-        tally.add_queues([(Module::CLAIMS, 1, counters), (Module::GOALIE, 0, counters)].into_iter());
-        tally.add_queues([(Module::CLAIMS, 2, counters)].into_iter());
-        let (waiting, sum) = tally.queues[&Module::CLAIMS];
+        let mut sums = SummedCounters::default();
+        sums.add_queues([(Module::CLAIMS, 1, counters), (Module::GOALIE, 0, counters)].into_iter());
+        sums.add_queues([(Module::CLAIMS, 2, counters)].into_iter());
+        let (waiting, sum) = sums.queues[&Module::CLAIMS];
         assert_eq!((waiting, sum.put_in, sum.handed_over, sum.dropped), (3, 10, 6, 2));
     }
 }

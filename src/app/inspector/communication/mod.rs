@@ -86,16 +86,16 @@ struct CommunicationData<'w, 's> {
 }
 
 impl CommunicationData<'_, '_> {
-    fn tally(&self, whose: Whose) -> SummedCounters {
-        let mut tally = SummedCounters::default();
-        tally.name(self.registry.types().map(|(data_type, known)| (known.module, data_type)));
+    fn sums(&self, whose: Whose) -> SummedCounters {
+        let mut sums = SummedCounters::default();
+        sums.name(self.registry.types().map(|(data_type, known)| (known.module, data_type)));
         for (id, tcm, client, _) in self.robots.iter() {
             if whose.includes(*id, self.selected.0) {
-                tally.add(&tcm.counters);
-                tally.add_queues(client.rows());
+                sums.add(&tcm.counters);
+                sums.add_queues(client.rows());
             }
         }
-        tally
+        sums
     }
 
     fn orders(&self) -> Vec<(RobotId, Orders)> {
@@ -133,7 +133,7 @@ fn dock(mut dock: LowDock, heard: CommunicationData, mut view: ResMut<Communicat
 fn show_page(ui: &mut egui::Ui, page: CommunicationPage, whose: Whose, heard: &CommunicationData) {
     let names = |data_type: DataType| heard.name_of(data_type);
     match page {
-        CommunicationPage::Modules => modules::show(ui, &heard.tally(whose), &names),
+        CommunicationPage::Modules => modules::show(ui, &heard.sums(whose), &names),
         CommunicationPage::Fragments => {
             let looked_at = heard.robots.iter().find(|(id, ..)| Some(**id) == heard.selected.0);
             let assembly = looked_at.map(|(id, tcm, ..)| (*id, &tcm.assembly));

@@ -34,45 +34,45 @@ const QUEUES: [Column; 5] = [
 /// A type's name, where somebody has registered it.
 pub type Names<'a> = &'a dyn Fn(DataType) -> String;
 
-pub fn show(ui: &mut egui::Ui, tally: &SummedCounters, names: Names) {
+pub fn show(ui: &mut egui::Ui, sums: &SummedCounters, names: Names) {
     ui.horizontal_top(|ui| {
         let scroll = |name: &str| egui::ScrollArea::vertical().id_salt(name).auto_shrink(false);
         let wide = |ui: &mut egui::Ui, columns: &[Column]| ui.set_width(table::width(columns) + 12.0);
         ui.vertical(|ui| {
             wide(ui, &TYPES);
             heading(ui, &TYPES);
-            scroll("types").show(ui, |ui| show_types(ui, tally, names));
+            scroll("types").show(ui, |ui| show_types(ui, sums, names));
         });
         ui.separator();
         ui.vertical(|ui| {
             wide(ui, &QUEUES);
             heading(ui, &QUEUES);
-            scroll("queues").show(ui, |ui| show_queues(ui, tally));
+            scroll("queues").show(ui, |ui| show_queues(ui, sums));
         });
     });
 }
 
-fn show_types(ui: &mut egui::Ui, tally: &SummedCounters, names: Names) {
+fn show_types(ui: &mut egui::Ui, sums: &SummedCounters, names: Names) {
     let mut last: Option<Module> = None;
     let (used, idle): (Vec<_>, Vec<_>) =
-        tally.types.iter().partition(|(_, count)| **count != TypeCount::default());
+        sums.types.iter().partition(|(_, count)| **count != TypeCount::default());
     for ((module, data_type), count) in used {
         let first = last.replace(*module) != Some(*module);
         let module = if first { module.to_string() } else { String::new() };
         row(ui, &TYPES, cells(module, names(*data_type), count));
     }
-    if tally.others != TypeCount::default() {
-        row(ui, &TYPES, cells("others".into(), String::new(), &tally.others))
+    if sums.others != TypeCount::default() {
+        row(ui, &TYPES, cells("others".into(), String::new(), &sums.others))
             .on_hover_text("Kinds of message that have no row, since there are too many");
     }
-    row(ui, &TYPES, cells("all".into(), String::new(), &tally.total()));
+    row(ui, &TYPES, cells("all".into(), String::new(), &sums.total()));
     if !idle.is_empty() {
         let idle: Vec<String> = idle.into_iter().map(|((_, data_type), _)| names(*data_type)).collect();
         ui.label(RichText::new(format!("Registered and not used so far: {}", idle.join(", "))).weak());
     }
     let strays = format!(
         "Besides: {} from strangers or for others, {} malformed, {} given up as incomplete",
-        tally.foreign, tally.malformed, tally.expired
+        sums.foreign, sums.malformed, sums.expired
     );
     ui.label(RichText::new(strays).weak()).on_hover_text(
         "Datagrams and messages from nobody in the directory or for somebody else; datagrams that are none of the TCM; \
@@ -103,11 +103,11 @@ fn kilobytes(bytes: u64) -> String {
     format!("{:.1}", bytes as f64 / 1000.0)
 }
 
-fn show_queues(ui: &mut egui::Ui, tally: &SummedCounters) {
-    if tally.queues.is_empty() {
+fn show_queues(ui: &mut egui::Ui, sums: &SummedCounters) {
+    if sums.queues.is_empty() {
         ui.weak("no module has said anything yet");
     }
-    for (module, (waiting, counters)) in &tally.queues {
+    for (module, (waiting, counters)) in &sums.queues {
         let cells = [
             module.to_string(),
             waiting.to_string(),

@@ -4,10 +4,10 @@
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, egui};
 
-use super::Pens;
+use super::pens::Pens;
 use crate::app::view::picture::camera::PitchCamera;
 use crate::app::view::picture::label_placement::{LabelPlace, LabelPlacement};
-use crate::app::view::picture::labels::{PADDING, lay_out};
+use crate::app::view::picture::labels::{GROUND, PADDING, lay_out};
 use crate::app::view::picture::robots::reach;
 use crate::app::view::picture::visuals::BodyVisual;
 use crate::app::view::state::{FreeArea, Overlay, Overlays, Selected};
@@ -120,7 +120,7 @@ pub(super) fn draw(booked: Booked, mut pens: Pens) {
 
 pub(super) fn write(
     mut contexts: EguiContexts,
-    (area, sight): (Res<FreeArea>, Res<PitchCamera>),
+    (area, camera): (Res<FreeArea>, Res<PitchCamera>),
     mut placed: ResMut<LabelPlacement>,
     booked: Booked,
     mut choices: Local<[LabelPlace; 2]>,
@@ -136,12 +136,12 @@ pub(super) fn write(
         }
         let galley = lay_out(&painter, &[(line.words(&booked.clock), colours::team_text(team))]);
         let room = galley.size() + 2.0 * PADDING;
-        let middle = sight.to_screen(from.midpoint(to));
+        let middle = camera.to_screen(from.midpoint(to));
         let choice = &mut choices[team.index()];
         let free = OFF.into_iter().find(|off| placed.has_room(middle, *off, room));
         let (rect, taken) = placed.place(middle, free.unwrap_or(OFF[0]), room, *choice);
         *choice = taken;
-        painter.rect_filled(rect, 4.0, egui::Color32::from_black_alpha(150));
+        painter.rect_filled(rect, 4.0, GROUND);
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
     }
     Ok(())

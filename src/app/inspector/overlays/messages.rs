@@ -3,7 +3,7 @@
 
 use bevy::prelude::*;
 
-use super::Pens;
+use super::pens::{Pens, pixel};
 use crate::app::inspector::outlines;
 use crate::app::inspector::radio::{RadioView, is_of_a_swap, way_of_a_lost_one};
 use crate::app::view::colours;
@@ -66,7 +66,7 @@ fn look(message: &Transmission, now: f64, dt: f32) -> Option<Look> {
 
 pub(super) fn draw(
     (overlays, view): (Res<Overlays>, Res<RadioView>),
-    (clock, pace, log): (Res<Clock>, Res<Playback>, Res<RadioLog>),
+    (clock, playback, log): (Res<Clock>, Res<Playback>, Res<RadioLog>),
     shown: Query<&BodyVisual>,
     camera: Query<(&Camera, &GlobalTransform), With<Camera2d>>,
     mut pens: Pens,
@@ -74,9 +74,9 @@ pub(super) fn draw(
     if !overlays.shows(Overlay::Teamwork) {
         return;
     }
-    let pixel = super::pixel(&camera);
+    let pixel = pixel(&camera);
     // Bodies are shown on their way from the tick before the last to the last.
-    let now = clock.tick as f64 - 2.0 + f64::from(pace.between);
+    let now = clock.tick as f64 - 2.0 + f64::from(playback.between);
     let first = now - f64::from(LONGEST_WAY / clock.dt);
     let place_of = |robot: RobotId| {
         shown.iter().find(|shown| shown.robot == Some(robot)).map(|shown| shown.pose.position)

@@ -1,18 +1,19 @@
 //! What the inspector draws on the pitch, around the selected robot and between team mates, in metres of the pitch frame.
 //!
-//! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`super::colours`].
+//! One meaning a colour: sensed is white dots, believed is dashed, true is solid; see [`crate::app::view::colours`].
 
 mod beliefs;
 mod bookings;
 mod messages;
+mod pens;
 mod sight;
 mod teamwork;
 mod vectors;
 mod zones;
 
-use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::EguiPrimaryContextPass;
+use pens::{Pens, pixel};
 
 use super::subject::InspectedMatch;
 use crate::app::view::picture::visuals::BodyVisual;
@@ -21,10 +22,7 @@ use crate::app::view::state::{Overlay, Overlays, PanelSystems, Screen};
 use crate::geometry::Pose;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_gizmo_group::<Broad>()
-        .init_gizmo_group::<Strong>()
-        .init_gizmo_group::<Fine>()
-        .add_systems(Startup, set_widths)
+    app.add_plugins(pens::plugin)
         .add_systems(
             PostUpdate,
             (teamwork::draw, bookings::draw, messages::draw, draw)
@@ -36,32 +34,6 @@ pub(super) fn plugin(app: &mut App) {
             EguiPrimaryContextPass,
             bookings::write.in_set(PanelSystems::Notes).run_if(in_state(Screen::Match)),
         );
-}
-
-/// Lines that lie under others.
-#[derive(Default, Reflect, GizmoConfigGroup)]
-struct Broad;
-
-/// Lines that are looked at.
-#[derive(Default, Reflect, GizmoConfigGroup)]
-struct Strong;
-
-/// Lines that only connect or bound.
-#[derive(Default, Reflect, GizmoConfigGroup)]
-struct Fine;
-
-fn set_widths(mut store: ResMut<GizmoConfigStore>) {
-    store.config_mut::<Broad>().0.line.width = 5.0;
-    store.config_mut::<Strong>().0.line.width = 2.5;
-    store.config_mut::<Fine>().0.line.width = 1.2;
-}
-
-/// What overlays are drawn with.
-#[derive(SystemParam)]
-pub(super) struct Pens<'w, 's> {
-    broad: Gizmos<'w, 's, Broad>,
-    strong: Gizmos<'w, 's, Strong>,
-    fine: Gizmos<'w, 's, Fine>,
 }
 
 fn draw(
@@ -96,14 +68,4 @@ fn draw(
     if overlays.shows(Overlay::Vectors) {
         vectors::draw(&mut pens, &robot, anchor.position);
     }
-}
-
-/// Metres that a pixel of the screen covers, and about a centimetre while there is no camera.
-fn pixel(camera: &Query<(&Camera, &GlobalTransform), With<Camera2d>>) -> f32 {
-    camera.iter().next().and_then(|(camera, at)| metres_a_pixel(camera, at)).unwrap_or(0.01)
-}
-
-fn metres_a_pixel(camera: &Camera, at: &GlobalTransform) -> Option<f32> {
-    let there = |x: f32| camera.viewport_to_world_2d(at, Vec2::new(x, 0.0)).ok();
-    Some(there(100.0)?.distance(there(0.0)?) / 100.0)
 }

@@ -4,7 +4,7 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::Pens;
+use super::pens::Pens;
 use crate::app::inspector::outlines;
 use crate::app::view::colours;
 use crate::app::view::picture::robots::reach;

@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::Pens;
+use super::pens::Pens;
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::view::colours;
 

@@ -4,10 +4,10 @@
 use bevy_egui::egui::{self, Align2, Pos2, Rect, RichText, Stroke, pos2, vec2};
 
 use super::booking_beliefs::{BookingBelief, story};
+use super::data::{RadioData, RadioView};
 use super::history::HistorySpan;
 use super::lanes::{TEXT, show_lanes, show_spans};
 use super::layout::Axes;
-use super::{RadioData, RadioView};
 use crate::app::view::{colours, format};
 use crate::game::record::{BookingFigures, Span};
 use crate::ids::{RobotId, Team};

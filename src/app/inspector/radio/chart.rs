@@ -1,14 +1,15 @@
 //! The page of the radio's panel with the message sequence chart: a lane for each robot, an arrow for each message, an amber
 //! bar where a robot is locked.
 
-use bevy_egui::egui::{self, Align2, Color32, Pos2, Rect, RichText, Stroke, pos2, vec2};
+use bevy_egui::egui::{self, Color32, Pos2, Rect, RichText, Stroke, pos2, vec2};
 
+use super::data::{RadioData, RadioView};
 use super::filter::is_of_a_swap;
 use super::history::HistorySpan;
 use super::lanes::{NAMES, TEXT, show_lanes, show_spans};
 use super::layout::{Arrow, Axes, End, Labels};
 use super::locks::{attempt_story, lock_story};
-use super::{RadioData, RadioView, words};
+use super::words;
 use crate::app::view::colours;
 use crate::comms::messages::MessageKind;
 use crate::comms::radio::Transmission;

@@ -8,18 +8,18 @@ use crate::clock::Clock;
 use crate::ids::RobotId;
 
 /// Keeps a history of one kind of thing.
-pub(super) fn plugin<T: Lasting>(app: &mut App) {
+pub(super) fn plugin<T: HistoryValue>(app: &mut App) {
     app.init_resource::<History<T>>().add_observer(forget_match::<T>).add_systems(AfterTick, forget_old::<T>);
 }
 
 /// What a robot may be in for a while.
-pub trait Lasting: Copy + PartialEq + Send + Sync + 'static {}
+pub trait HistoryValue: Copy + PartialEq + Send + Sync + 'static {}
 
-impl<T: Copy + PartialEq + Send + Sync + 'static> Lasting for T {}
+impl<T: Copy + PartialEq + Send + Sync + 'static> HistoryValue for T {}
 
 /// The spans of the last minute, in the order in which they began.
 #[derive(Resource, Clone, Debug, PartialEq)]
-pub struct History<T: Lasting> {
+pub struct History<T: HistoryValue> {
     spans: Vec<HistorySpan<T>>,
 }
 
@@ -37,13 +37,13 @@ pub struct HistorySpan<T> {
 /// How long spans are kept, s.
 const KEPT: f32 = 60.0;
 
-impl<T: Lasting> Default for History<T> {
+impl<T: HistoryValue> Default for History<T> {
     fn default() -> History<T> {
         History { spans: Vec::new() }
     }
 }
 
-impl<T: Lasting> History<T> {
+impl<T: HistoryValue> History<T> {
     /// Takes note of what holds of a robot in a tick.
     pub fn note(&mut self, tick: u64, robot: RobotId, what: Option<T>) {
         let open = self.spans.iter_mut().rev().find(|span| span.robot == robot && span.until.is_none());
@@ -79,11 +79,11 @@ impl<T> HistorySpan<T> {
     }
 }
 
-fn forget_match<T: Lasting>(_: On<MatchBegun>, mut history: ResMut<History<T>>) {
+fn forget_match<T: HistoryValue>(_: On<MatchBegun>, mut history: ResMut<History<T>>) {
     history.spans.clear();
 }
 
-fn forget_old<T: Lasting>(clock: Res<Clock>, mut history: ResMut<History<T>>) {
+fn forget_old<T: HistoryValue>(clock: Res<Clock>, mut history: ResMut<History<T>>) {
     history.forget(clock.tick.saturating_sub(1 + clock.ticks(KEPT)));
 }
 

@@ -2,8 +2,8 @@
 
 use bevy_egui::egui::{self, Align2, Rect, pos2, vec2};
 
+use super::data::{ChartSpan, RadioData, RadioView};
 use super::layout::Axes;
-use super::{ChartSpan, RadioData, RadioView};
 use crate::app::view::colours;
 
 /// Width of the robots' names before the lanes, in points.
@@ -26,7 +26,7 @@ pub fn show_lanes(
     let rect = Rect::from_min_max(whole.min + vec2(NAMES, 0.0), whole.max - vec2(4.0, TIMES));
     let axes = Axes {
         rect,
-        now: heard.clock.tick as f64 - 1.0 + f64::from(heard.pace.between),
+        now: heard.clock.tick as f64 - 1.0 + f64::from(heard.playback.between),
         span: f64::from(view.span.seconds()) / f64::from(heard.clock.dt),
         lanes,
     };

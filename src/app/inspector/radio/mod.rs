@@ -4,6 +4,7 @@
 mod booking_beliefs;
 mod bookings;
 mod chart;
+mod data;
 mod filter;
 mod history;
 mod lanes;
@@ -15,25 +16,17 @@ mod samples;
 mod toolbar;
 mod words;
 
-use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiPrimaryContextPass, egui};
-use booking_beliefs::BookingBelief;
-use history::History;
-use locks::SwapAttempt;
+use data::{RadioData, RadioPage};
 
 use super::low_panel::{LowDock, LowPanel};
-use crate::app::view::state::{Overlay, PanelSystems, Playback, Screen, Selected, shows};
-use crate::clock::Clock;
-use crate::comms::radio::{Conditions, RadioLog, Traffic};
-use crate::game::record::Record;
+use crate::app::view::state::{Overlay, PanelSystems, Screen, shows};
 use crate::game::requests::Requests;
-use crate::ids::{RobotId, Team};
-use crate::protocol::role_swap::Lock;
-use crate::robot::{Condition, Robot};
-use crate::strategy::Strategies;
+use crate::ids::Team;
 
-pub use filter::{Filter, is_of_a_swap};
+pub use data::RadioView;
+pub use filter::is_of_a_swap;
 pub use layout::way_of_a_lost_one;
 
 pub(super) fn plugin(app: &mut App) {
@@ -41,80 +34,6 @@ pub(super) fn plugin(app: &mut App) {
         EguiPrimaryContextPass,
         dock.in_set(PanelSystems::Low).run_if(in_state(Screen::Match).and_then(shows(Overlay::Radio))),
     );
-}
-
-/// What of the radio is looked at.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct RadioView {
-    pub filter: Filter,
-    span: ChartSpan,
-    page: RadioPage,
-    /// The team that is looked at while no robot is selected: that of the last one.
-    team: Option<Team>,
-}
-
-/// The time that the chart shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum ChartSpan {
-    Two,
-    #[default]
-    Ten,
-    Thirty,
-    Sixty,
-}
-
-impl ChartSpan {
-    const ALL: [ChartSpan; 4] = [ChartSpan::Two, ChartSpan::Ten, ChartSpan::Thirty, ChartSpan::Sixty];
-
-    fn seconds(self) -> u16 {
-        match self {
-            ChartSpan::Two => 2,
-            ChartSpan::Ten => 10,
-            ChartSpan::Thirty => 30,
-            ChartSpan::Sixty => 60,
-        }
-    }
-}
-
-/// What the panel shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum RadioPage {
-    #[default]
-    Messages,
-    Bookings,
-    Robots,
-}
-
-/// What there is to see of the radio.
-#[derive(SystemParam)]
-struct RadioData<'w, 's> {
-    clock: Res<'w, Clock>,
-    pace: Res<'w, Playback>,
-    log: Res<'w, RadioLog>,
-    traffic: Res<'w, Traffic>,
-    conditions: Res<'w, Conditions>,
-    locks: Res<'w, History<Lock>>,
-    attempts: Res<'w, History<SwapAttempt>>,
-    beliefs: Res<'w, History<BookingBelief>>,
-    record: Res<'w, Record>,
-    strategies: Res<'w, Strategies>,
-    selected: Res<'w, Selected>,
-    robots: Query<'w, 's, (&'static RobotId, &'static Robot)>,
-}
-
-impl RadioData<'_, '_> {
-    /// Whether a team books the ball.
-    fn books(&self, team: Team) -> bool {
-        self.strategies.of(team).teamwork.ball_booking.is_some()
-    }
-
-    /// The robots of a team, by number.
-    fn team(&self, team: Team) -> Vec<(RobotId, Condition)> {
-        let robots = self.robots.iter().filter(|(id, _)| id.team == team);
-        let mut robots: Vec<_> = robots.map(|(id, robot)| (*id, robot.condition)).collect();
-        robots.sort_unstable_by_key(|(id, _)| *id);
-        robots
-    }
 }
 
 const PANEL: LowPanel = LowPanel {

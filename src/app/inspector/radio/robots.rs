@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::RadioData;
+use super::data::RadioData;
 use crate::app::inspector::pending::Pending;
 use crate::app::view::colours;
 use crate::comms::radio::{LinkCounters, Loss};

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::{RadioData, RadioPage, RadioView};
+use super::data::{RadioData, RadioPage, RadioView};
 use crate::app::inspector::pending::Pending;
 use crate::app::view::colours;
 use crate::app::view::state::Selected;

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::PanelActions;
+use super::panel_actions::PanelActions;
 use crate::app::inspector::calibration::{KNOBS, Knob, RobotValues};
 use crate::app::inspector::pending::Pending;
 use crate::app::inspector::subject::SelectedRobot;
@@ -12,16 +12,16 @@ use crate::game::requests::{Request, Treatment};
 /// Widths of a slider and of a number, in points.
 const WIDTHS: (f32, f32) = (118.0, 88.0);
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
     let in_force = RobotValues::of(&robot.of.robot.kind, &robot.of.robot.sensing);
-    let pending = Pending::new(in_force, desk.requests, |request| match request {
+    let pending = Pending::new(in_force, actions.requests, |request| match request {
         Request::Robot(id, Treatment::Recalibrate(asked)) if *id == robot.id => {
             Some(RobotValues::of(&asked.kind, &asked.sensing))
         }
         _ => None,
     });
     let mut values = pending.shown();
-    let file = desk.file.map(|team| RobotValues::of(&team.kind, &team.sensing));
+    let file = actions.file.map(|team| RobotValues::of(&team.kind, &team.sensing));
     let mut file = file.unwrap_or_else(|| values.clone());
     let before = values.clone();
     ui.horizontal(|ui| {
@@ -45,7 +45,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelAct
     }
     if values != before {
         let treatment = Treatment::Recalibrate(values.calibration());
-        desk.requests.ask(Request::Robot(robot.id, treatment));
+        actions.requests.ask(Request::Robot(robot.id, treatment));
     }
 }
 

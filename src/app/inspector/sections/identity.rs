@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{self, RichText};
 
-use super::{PanelActions, close_button};
+use super::panel_actions::{PanelActions, close_button};
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::inspector::table;
 use crate::app::view::picture::labels::off_text;
@@ -10,15 +10,15 @@ use crate::app::view::state::Action;
 use crate::app::view::{colours, format};
 use crate::ids::RobotId;
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
     let strategy = robot.strategy;
     let role_name = |index: usize| strategy.roles.get(index).map_or(format::UNKNOWN, |role| &role.name);
     ui.horizontal(|ui| {
         shirt(ui, robot.id);
         ui.label(RichText::new(role_name(robot.of.role.0)).size(18.0));
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            close_button(ui, desk);
-            hand_over(ui, robot.id, desk);
+            close_button(ui, actions);
+            hand_over(ui, robot.id, actions);
         });
     });
     if robot.of.activity.acting_as != robot.of.role.0 {
@@ -48,22 +48,22 @@ fn shirt(ui: &mut egui::Ui, id: RobotId) {
     response.on_hover_text(id.to_string());
 }
 
-pub(super) fn hand_over(ui: &mut egui::Ui, id: RobotId, desk: &mut PanelActions) {
-    let piloted = desk.piloted.0 == Some(id);
+pub(super) fn hand_over(ui: &mut egui::Ui, id: RobotId, actions: &mut PanelActions) {
+    let piloted = actions.piloted.0 == Some(id);
     let (words, tip) = if piloted {
         ("Hand back", "Let the strategy drive it again".to_owned())
     } else {
-        ("Take over", format!("Drive this robot yourself, with {}", desk.keyboard.driving_keys()))
+        ("Take over", format!("Drive this robot yourself, with {}", actions.keyboard.driving_keys()))
     };
-    let tip = desk.keyboard.tip_that_says(&tip, Action::HandOver);
+    let tip = actions.keyboard.tip_that_says(&tip, Action::HandOver);
     if !ui.button(words).on_hover_text(tip).clicked() {
         return;
     }
     if piloted {
-        desk.piloted.change(None, desk.requests);
+        actions.piloted.change(None, actions.requests);
         return;
     }
-    desk.piloted.change(Some(id), desk.requests);
+    actions.piloted.change(Some(id), actions.requests);
     // A person who takes a robot over in the inspector wants to go on seeing it.
-    desk.playing.inspector = true;
+    actions.playing.inspector = true;
 }

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
-use super::PanelActions;
+use super::panel_actions::PanelActions;
 use crate::app::inspector::pending::Pending;
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::inspector::table::{self, Column, figures, words};
@@ -15,7 +15,7 @@ use crate::ids::Team;
 use crate::robot::{DriveCommand, SteeringIntent};
 use crate::strategy::{Combination, Strategy, Term};
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
     match robot.assemblage() {
         Some((index, assemblage)) => {
             let how = match assemblage.combination {
@@ -26,7 +26,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelAct
             for (number, term) in assemblage.terms.iter().enumerate() {
                 let place = Place { team: robot.id.team, assemblage: index, term: number };
                 let vector = robot.of.contributions.vectors.get(number).copied();
-                schema(ui, (term, place, vector), robot.ends, desk);
+                schema(ui, (term, place, vector), robot.ends, actions);
             }
             sum(ui, robot);
         }
@@ -71,7 +71,7 @@ fn schema(
     ui: &mut egui::Ui,
     (term, place, vector): (&Term, Place, Option<Vec2>),
     ends: Attacking,
-    desk: &mut PanelActions,
+    actions: &mut PanelActions,
 ) {
     let kind = term.schema.kind();
     ui.horizontal(|ui| {
@@ -82,7 +82,7 @@ fn schema(
             vector_row(ui, &term.name, vector.unwrap_or_default(), colours::schema(kind), ends)
                 .on_hover_text(format!("{}: {}", term.name, kind.words()));
         });
-        weight(ui, place, term.weight, desk);
+        weight(ui, place, term.weight, actions);
     });
 }
 
@@ -109,8 +109,8 @@ fn vector_row(ui: &mut egui::Ui, name: &str, vector: Vec2, tint: Color, ends: At
     response
 }
 
-fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut PanelActions) {
-    let pending = Pending::new(in_force, desk.requests, |request| match *request {
+fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, actions: &mut PanelActions) {
+    let pending = Pending::new(in_force, actions.requests, |request| match *request {
         Request::SetWeight { team, assemblage, term, weight } => {
             (place == Place { team, assemblage, term }).then_some(weight)
         }
@@ -118,11 +118,11 @@ fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, desk: &mut PanelAction
     });
     let before = pending.shown();
     let mut wanted = before;
-    let filed = desk.file.and_then(|plan| place.weight(&plan.strategy)).unwrap_or(in_force);
+    let filed = actions.file.and_then(|plan| place.weight(&plan.strategy)).unwrap_or(in_force);
     WEIGHT.show(ui, &mut wanted, filed);
     if wanted != before && wanted.is_finite() {
         let Place { team, assemblage, term } = place;
-        desk.requests.ask(Request::SetWeight { team, assemblage, term, weight: wanted });
+        actions.requests.ask(Request::SetWeight { team, assemblage, term, weight: wanted });
     }
 }
 
@@ -161,15 +161,15 @@ fn intent(robot: &SelectedRobot) -> RichText {
         }
         SteeringIntent::Steer { heading, speed, .. } => {
             let turn = wrap_angle(heading - robot.of.odometry.pose.heading);
-            let pace = format!(
+            let playback = format!(
                 "{} ({})",
                 format::speed(speed.abs() * robot.of.robot.kind.max_speed()),
                 format::percent(speed.abs())
             );
             match speed {
                 0.0 => format!("to face {}", format::aside(turn)),
-                _ if speed < 0.0 => format!("to back up at {pace}, turning {}", format::aside(turn)),
-                _ => format!("to drive {} at {pace}", format::aside(turn)),
+                _ if speed < 0.0 => format!("to back up at {playback}, turning {}", format::aside(turn)),
+                _ => format!("to drive {} at {playback}", format::aside(turn)),
             }
         }
     };

@@ -3,7 +3,8 @@
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
-use super::{PanelActions, identity, joystick};
+use super::panel_actions::PanelActions;
+use super::{identity, joystick};
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::view::format;
 use crate::app::view::input::keyboard::Keyboard;
@@ -15,58 +16,58 @@ use crate::robot::{Drive, Kick, RobotKind};
 /// Width of a lever, in points.
 const LEVER: f32 = 120.0;
 
-pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, desk: &mut PanelActions) {
+pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
     let kind = &robot.of.robot.kind;
-    let mine = desk.piloted.0 == Some(robot.id);
+    let mine = actions.piloted.0 == Some(robot.id);
     if !mine {
         ui.horizontal(|ui| {
-            identity::hand_over(ui, robot.id, desk);
+            identity::hand_over(ui, robot.id, actions);
             ui.weak("the robot to work its levers");
         });
     }
     let mut still = ManualControl::default();
     ui.add_enabled_ui(mine, |ui| {
-        let levers = if mine { &mut *desk.levers } else { &mut still };
+        let control = if mine { &mut *actions.control } else { &mut still };
         ui.horizontal_top(|ui| {
-            walk(ui, kind, levers);
+            walk(ui, kind, control);
             ui.add_space(6.0);
             ui.vertical(|ui| {
-                speeds(ui, kind, levers);
+                speeds(ui, kind, control);
                 if matches!(kind.drive, Drive::Walker(_)) {
-                    turn(ui, kind, levers);
+                    turn(ui, kind, control);
                 }
-                head(ui, robot, levers);
+                head(ui, robot, control);
                 if kind.chin.is_some() {
-                    hold(ui, robot, levers, desk.keyboard);
+                    hold(ui, robot, control, actions.keyboard);
                 }
             });
         });
-        kicks(ui, robot, levers);
+        kicks(ui, robot, control);
     });
 }
 
 /// The pad. What has wheels turns where what has legs steps aside.
-fn walk(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut ManualControl) {
+fn walk(ui: &mut egui::Ui, kind: &RobotKind, control: &mut ManualControl) {
     match kind.drive {
-        Drive::Walker(_) => joystick::show(ui, &mut levers.pull.walk, "left and right step aside"),
+        Drive::Walker(_) => joystick::show(ui, &mut control.input.walk, "left and right step aside"),
         Drive::Differential(_) => {
-            let mut way = Vec2::new(levers.pull.walk.x, levers.pull.turn);
+            let mut way = Vec2::new(control.input.walk.x, control.input.turn);
             joystick::show(ui, &mut way, "left and right turn");
-            (levers.pull.walk.x, levers.pull.turn) = (way.x, way.y);
+            (control.input.walk.x, control.input.turn) = (way.x, way.y);
         }
     }
 }
 
 /// What the pad asks for.
-fn speeds(ui: &mut egui::Ui, kind: &RobotKind, levers: &ManualControl) {
-    let Vec2 { x, y } = levers.pull.walk;
+fn speeds(ui: &mut egui::Ui, kind: &RobotKind, control: &ManualControl) {
+    let Vec2 { x, y } = control.input.walk;
     let (ahead, second) = match kind.drive {
         Drive::Walker(walker) => {
             let ahead = x * if x >= 0.0 { walker.ahead } else { walker.back };
             (ahead, format!("{} to the {}", format::speed(y.abs() * walker.aside), side(y)))
         }
         Drive::Differential(drive) => {
-            let turn = levers.pull.turn;
+            let turn = control.input.turn;
             let rate = format::fixed(turn.abs() * drive.turn_rate, 0);
             (x * drive.max_speed, format!("{rate}°/s to the {}", side(turn)))
         }
@@ -95,13 +96,13 @@ fn lever(ui: &mut egui::Ui, name: &str, value: &mut f32, most: f32, unit: &str) 
     .inner
 }
 
-fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut ManualControl) {
+fn turn(ui: &mut egui::Ui, kind: &RobotKind, control: &mut ManualControl) {
     let most = kind.max_turn().to_degrees();
-    let mut rate = levers.pull.turn * most;
+    let mut rate = control.input.turn * most;
     let slider = lever(ui, "Turn", &mut rate, most, "°/s");
-    levers.pull.turn = rate / most;
+    control.input.turn = rate / most;
     if slider.drag_stopped() {
-        levers.pull.turn = 0.0;
+        control.input.turn = 0.0;
         // Otherwise it would keep the keyboard to itself.
         slider.surrender_focus();
     }
@@ -112,12 +113,12 @@ fn turn(ui: &mut egui::Ui, kind: &RobotKind, levers: &mut ManualControl) {
     }
 }
 
-fn head(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl) {
+fn head(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl) {
     let Some(neck) = &robot.of.robot.kind.neck else { return };
-    let mut pan = levers.head.map_or(robot.of.head.pan.to_degrees(), |share| share * neck.pan);
+    let mut pan = control.head.map_or(robot.of.head.pan.to_degrees(), |share| share * neck.pan);
     let slider = lever(ui, "Head", &mut pan, neck.pan, "°");
     if slider.changed() {
-        levers.head = Some(pan / neck.pan);
+        control.head = Some(pan / neck.pan);
     }
     if slider.drag_stopped() {
         slider.surrender_focus();
@@ -125,14 +126,14 @@ fn head(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl) {
     if !slider.dragged() {
         slider.on_hover_text("Where the head looks, to the left above zero");
     }
-    let mut itself = levers.head.is_none();
+    let mut itself = control.head.is_none();
     let tip = "The head follows the ball, or looks for it, as when the robot plays";
     if ui.checkbox(&mut itself, "the head looks for the ball itself").on_hover_text(tip).changed() {
-        levers.head = (!itself).then_some(pan / neck.pan);
+        control.head = (!itself).then_some(pan / neck.pan);
     }
 }
 
-fn hold(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl, keyboard: &Keyboard) {
+fn hold(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl, keyboard: &Keyboard) {
     let told = match robot.of.handling.grip {
         Grip::Open => "open",
         Grip::Lowering { .. } => "goes down",
@@ -143,12 +144,12 @@ fn hold(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl, ke
         let key = keyboard.key(Deed::Drive(DriveKey::Hold));
         let tip =
             format!("The chin catches the ball when it is before the chest, and keeps it ({key}, held)");
-        ui.checkbox(&mut levers.pull.hold, "hold the ball").on_hover_text(tip);
+        ui.checkbox(&mut control.input.hold, "hold the ball").on_hover_text(tip);
         ui.weak(format!("the chin: {told}"));
     });
 }
 
-fn kicks(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl) {
+fn kicks(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl) {
     let kicks = &robot.of.robot.kind.kicks;
     if kicks.is_empty() {
         return;
@@ -157,13 +158,13 @@ fn kicks(ui: &mut egui::Ui, robot: &SelectedRobot, levers: &mut ManualControl) {
         ui.label("Kick");
         for (number, (name, kick)) in kicks.iter().enumerate() {
             let now = robot.of.handling.kicking.is_some_and(|kicking| kicking.kick == *kick);
-            let asked = levers.kick_asked() == Some(number);
+            let asked = control.kick_asked() == Some(number);
             let button = egui::Button::new(RichText::new(name.replace('_', " "))).selected(now || asked);
             let possible = !kick.from_hold || robot.of.handling.holds();
             let button = ui.add_enabled(possible, button);
             let button = button.on_hover_text(told(kick)).on_disabled_hover_text(told(kick));
             if button.clicked() {
-                levers.kick(number, &robot.clock);
+                control.kick(number, &robot.clock);
             }
         }
     });

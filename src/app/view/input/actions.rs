@@ -41,7 +41,7 @@ fn keep_tab_from_widgets(mut contexts: Query<(&mut EguiContext, &mut EguiInput),
 fn read_keys(
     mut contexts: EguiContexts,
     held: Res<ButtonInput<KeyCode>>,
-    (open, seat): (Res<OpenDialogues>, DrivenRobot),
+    (open, driven): (Res<OpenDialogues>, DrivenRobot),
     mut typed: MessageReader<KeyboardInput>,
     mut actions: MessageWriter<Action>,
 ) -> Result {
@@ -50,7 +50,7 @@ fn read_keys(
     let shift = held.any_pressed([ShiftLeft, ShiftRight]);
     let chord = held.any_pressed([ControlLeft, ControlRight, AltLeft, SuperLeft, SuperRight]);
     for key in typed.read().filter(|key| key.state == ButtonState::Pressed && !elsewhere && !chord) {
-        if key.logical_key == Key::Space && seat.kicks() {
+        if key.logical_key == Key::Space && driven.kicks() {
             // It kicks, and P pauses.
             continue;
         }

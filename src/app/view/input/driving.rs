@@ -51,7 +51,7 @@ impl DrivenRobot<'_, '_> {
 }
 
 /// What the keys that are down say.
-fn pull(down: impl Fn(DriveKey) -> bool) -> ControlInput {
+fn input(down: impl Fn(DriveKey) -> bool) -> ControlInput {
     let lever = |plus, minus| f32::from(u8::from(down(plus))) - f32::from(u8::from(down(minus)));
     ControlInput {
         walk: Vec2::new(
@@ -82,27 +82,27 @@ fn change_seat(
 fn steer(
     mut contexts: EguiContexts,
     held: Res<ButtonInput<KeyCode>>,
-    (seat, open, clock): (DrivenRobot, Res<OpenDialogues>, Res<Clock>),
-    (mut requests, mut levers): (ResMut<Requests>, ResMut<ManualControl>),
+    (driven, open, clock): (DrivenRobot, Res<OpenDialogues>, Res<Clock>),
+    (mut requests, mut control): (ResMut<Requests>, ResMut<ManualControl>),
     mut last: Local<Option<(RobotId, Pilot)>>,
 ) -> Result {
     let elsewhere = contexts.ctx_mut()?.egui_wants_keyboard_input() || open.question.is_some();
-    let levers = levers.bypass_change_detection();
-    if last.map(|(robot, _)| robot) != seat.id() {
-        *levers = ManualControl::default();
+    let control = control.bypass_change_detection();
+    if last.map(|(robot, _)| robot) != driven.id() {
+        *control = ManualControl::default();
     }
     for (kick, direction) in KICKS {
         if !elsewhere
             && kick.is_held(&held)
-            && let Some(kick) = seat.kick_to(direction)
+            && let Some(kick) = driven.kick_to(direction)
         {
-            levers.kick(kick, &clock);
+            control.kick(kick, &clock);
         }
     }
-    levers.let_kick_pass(&clock);
-    let keys = pull(|drive| !elsewhere && drive.is_held(&held));
-    let now = seat.id().map(|robot| (robot, levers.with(keys)));
-    if let Some((robot, pilot)) = now.filter(|now| seat.piloted.is_changed() || Some(*now) != *last) {
+    control.let_kick_pass(&clock);
+    let keys = input(|drive| !elsewhere && drive.is_held(&held));
+    let now = driven.id().map(|robot| (robot, control.with(keys)));
+    if let Some((robot, pilot)) = now.filter(|now| driven.piloted.is_changed() || Some(*now) != *last) {
         requests.ask(Request::Steer { robot, pilot });
     }
     *last = now;
@@ -114,13 +114,13 @@ mod tests {
     use super::*;
 
     fn held(drives: &[DriveKey]) -> ControlInput {
-        pull(|wanted| drives.contains(&wanted))
+        input(|wanted| drives.contains(&wanted))
     }
 
     #[test]
     fn keys_walk_and_turn_at_once() {
-        let pull = held(&[DriveKey::Ahead, DriveKey::TurnRight]);
-        assert_eq!((pull.walk, pull.turn), (Vec2::X, -1.0));
+        let input = held(&[DriveKey::Ahead, DriveKey::TurnRight]);
+        assert_eq!((input.walk, input.turn), (Vec2::X, -1.0));
     }
 
     #[test]
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn a_robot_steps_to_the_left_while_it_holds_the_ball() {
-        let pull = held(&[DriveKey::StepLeft, DriveKey::Hold]);
-        assert_eq!((pull.walk, pull.hold), (Vec2::Y, true));
+        let input = held(&[DriveKey::StepLeft, DriveKey::Hold]);
+        assert_eq!((input.walk, input.hold), (Vec2::Y, true));
     }
 }

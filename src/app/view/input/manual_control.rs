@@ -18,7 +18,7 @@ pub struct ControlInput {
 /// The levers of the inspector, for the robot that a person drives. Keys go before them.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ManualControl {
-    pub pull: ControlInput,
+    pub input: ControlInput,
     /// Share of the farthest turn of the head; without it the head looks for the ball itself.
     pub head: Option<f32>,
     /// The kick that is asked for, and until which tick.
@@ -48,13 +48,13 @@ impl ManualControl {
     pub fn with(&self, keys: ControlInput) -> Pilot {
         let first = |key: f32, lever: f32| if key == 0.0 { lever } else { key };
         Pilot {
-            throttle: first(keys.walk.x, self.pull.walk.x),
-            aside: first(keys.walk.y, self.pull.walk.y),
-            turn: first(keys.turn, self.pull.turn),
+            throttle: first(keys.walk.x, self.input.walk.x),
+            aside: first(keys.walk.y, self.input.walk.y),
+            turn: first(keys.turn, self.input.turn),
             head: self.head,
             kick: match self.kick {
                 Some((kick, _)) => KickIntent::Kick(kick),
-                None if keys.hold || self.pull.hold => KickIntent::Hold,
+                None if keys.hold || self.input.hold => KickIntent::Hold,
                 None => KickIntent::Nothing,
             },
         }
@@ -101,11 +101,11 @@ mod tests {
 
     #[test]
     fn keys_go_before_levers() {
-        let levers = ManualControl {
-            pull: ControlInput { walk: Vec2::ONE, turn: 0.5, hold: true },
+        let control = ManualControl {
+            input: ControlInput { walk: Vec2::ONE, turn: 0.5, hold: true },
             ..ManualControl::default()
         };
-        let pilot = levers.with(ControlInput { walk: Vec2::NEG_X, ..ControlInput::default() });
+        let pilot = control.with(ControlInput { walk: Vec2::NEG_X, ..ControlInput::default() });
         assert_eq!((pilot.throttle, pilot.aside, pilot.turn), (-1.0, 1.0, 0.5));
         assert_eq!(pilot.kick, KickIntent::Hold);
     }
@@ -113,14 +113,14 @@ mod tests {
     #[test]
     fn a_kick_is_asked_for_until_it_is_too_late() {
         let mut clock = Clock::new(60.0);
-        let mut levers = ManualControl::default();
-        levers.kick(2, &clock);
-        assert_eq!(levers.with(ControlInput::default()).kick, KickIntent::Kick(2));
+        let mut control = ManualControl::default();
+        control.kick(2, &clock);
+        assert_eq!(control.with(ControlInput::default()).kick, KickIntent::Kick(2));
         clock.tick = 23;
-        levers.let_kick_pass(&clock);
-        assert_eq!(levers.kick_asked(), Some(2));
+        control.let_kick_pass(&clock);
+        assert_eq!(control.kick_asked(), Some(2));
         clock.tick = 24;
-        levers.let_kick_pass(&clock);
-        assert_eq!(levers.with(ControlInput::default()).kick, KickIntent::Nothing);
+        control.let_kick_pass(&clock);
+        assert_eq!(control.with(ControlInput::default()).kick, KickIntent::Nothing);
     }
 }

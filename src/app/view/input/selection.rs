@@ -20,16 +20,16 @@ const NEAR: f32 = 24.0;
 
 fn select_by_click(
     pointer: Res<Pointer>,
-    sight: Res<PitchCamera>,
+    camera: Res<PitchCamera>,
     shown: Query<&BodyVisual>,
     robots: Query<&Robot>,
     mut selected: ResMut<Selected>,
 ) {
     let Some(at) = pointer.clicked else { return };
-    let point = sight.to_pitch(at);
+    let point = camera.to_pitch(at);
     let nearest = (shown.iter())
         .filter_map(|shown| {
-            let reach = reach(&robots.get(shown.body).ok()?.kind).max(NEAR / sight.scale);
+            let reach = reach(&robots.get(shown.body).ok()?.kind).max(NEAR / camera.scale);
             Some((shown.pose.position.distance(point), reach, shown.robot?))
         })
         .filter(|(distance, reach, _)| distance < reach)

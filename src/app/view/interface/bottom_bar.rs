@@ -40,7 +40,7 @@ const BUTTON: f32 = 26.0;
 /// What the bar shows besides the time line.
 #[derive(SystemParam)]
 struct Controls<'w> {
-    pace: Res<'w, Playback>,
+    playback: Res<'w, Playback>,
     overlays: ResMut<'w, Overlays>,
     selected: Res<'w, Selected>,
     piloted: Res<'w, Piloted>,
@@ -57,10 +57,10 @@ impl Controls<'_> {
     }
 
     fn show_time(&mut self, ui: &mut egui::Ui) {
-        self.button(ui, if self.pace.paused { "▶ Play" } else { "⏸ Pause" }, 76.0, Action::PlayOrPause);
+        self.button(ui, if self.playback.paused { "▶ Play" } else { "⏸ Pause" }, 76.0, Action::PlayOrPause);
         self.button(ui, "Tick", 44.0, Action::OneTick);
         self.button(ui, "−", 28.0, Action::Slower);
-        let speed = egui::Label::new(egui::RichText::new(format::times(self.pace.factor())).strong());
+        let speed = egui::Label::new(egui::RichText::new(format::times(self.playback.factor())).strong());
         let keys = [Action::Faster, Action::Slower].map(|action| self.keyboard.key(Deed::Act(action)));
         let [faster, slower] = keys;
         ui.add_sized([40.0, BUTTON], speed).on_hover_text(format!("Times real time ({faster} and {slower})"));
@@ -69,7 +69,7 @@ impl Controls<'_> {
 
     fn show_seat(&mut self, ui: &mut egui::Ui, width: f32) {
         let (words, action) = match (self.piloted.0, self.selected.0) {
-            (Some(seat), _) => (format!("Hand {seat} back"), Action::HandOver),
+            (Some(driven), _) => (format!("Hand {driven} back"), Action::HandOver),
             (None, Some(robot)) => (format!("Drive {robot}"), Action::HandOver),
             (None, None) => ("Select a robot".into(), Action::NextRobot),
         };
@@ -160,15 +160,15 @@ fn show_first_minute(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
     time: Res<Time<Real>>,
-    (seat, keyboard): (DrivenRobot, Res<Keyboard>),
+    (driven, keyboard): (DrivenRobot, Res<Keyboard>),
     mut told: Local<f32>,
 ) -> Result {
-    let Some(robot) = seat.id().filter(|_| *told < FIRST_MINUTE) else { return Ok(()) };
+    let Some(robot) = driven.id().filter(|_| *told < FIRST_MINUTE) else { return Ok(()) };
     *told += time.delta_secs();
     let panel = egui::Panel::bottom("first minute")
         .resizable(false)
         .frame(panel_frame(colours::RAISED, egui::Margin::symmetric(12, 5)));
-    let text = first_minute(robot, seat.kicks(), &keyboard);
+    let text = first_minute(robot, driven.kicks(), &keyboard);
     if area.room(Edge::Bottom) < FIRST_MINUTE_HEIGHT {
         return Ok(());
     }

@@ -73,7 +73,7 @@ fn open_and_close(
 /// What a yes leads to.
 #[derive(bevy::ecs::system::SystemParam)]
 struct Doing<'w> {
-    wish: ResMut<'w, PendingMatch>,
+    pending: ResMut<'w, PendingMatch>,
     session: Res<'w, Session>,
     screen: ResMut<'w, NextState<Screen>>,
 }
@@ -81,7 +81,7 @@ struct Doing<'w> {
 impl Doing<'_> {
     fn carry_out(&mut self, question: Question) {
         match question {
-            Question::Restart => self.wish.0 = Some(self.session.wanted.clone()),
+            Question::Restart => self.pending.0 = Some(self.session.request.clone()),
             Question::Leave => self.screen.set(Screen::Menu),
         }
     }

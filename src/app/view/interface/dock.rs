@@ -1,6 +1,4 @@
-//! Where things go in the window: panels dock to its edges one after another, and what they leave is the pitch's.
-//!
-//! Every system that draws interface runs in `EguiPrimaryContextPass`, in one of the [`PanelSystems`].
+//! Panels dock to the edges of what is free of the window, and dialogues lie in its middle.
 
 use bevy::prelude::*;
 use bevy_egui::egui;

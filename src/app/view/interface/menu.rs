@@ -8,11 +8,10 @@ use egui::{Color32, RichText, vec2};
 use super::custom_match::{CustomMatch, fresh_seed};
 use super::menu_art::{Picture, paint_picture};
 use super::scenario_list::ScenarioList;
+use crate::app::match_request::MatchRequest;
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::picture::visuals::clear;
-use crate::app::view::state::{
-    FileError, Folder, FreeArea, MatchRequest, PanelSystems, PendingMatch, Screen,
-};
+use crate::app::view::state::{FileError, Folder, FreeArea, PanelSystems, PendingMatch, Screen};
 use crate::app::view::style;
 use crate::game::Choice;
 use crate::ids::{RobotId, Team};
@@ -76,7 +75,7 @@ fn show_menu(
     mut contexts: EguiContexts,
     area: Res<FreeArea>,
     mut cards: Cards,
-    (mut wish, trouble): (ResMut<PendingMatch>, Res<FileError>),
+    (mut pending, file_error): (ResMut<PendingMatch>, Res<FileError>),
 ) -> Result {
     let ctx = contexts.ctx_mut()?;
     let place = egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(area.0);
@@ -85,16 +84,16 @@ fn show_menu(
     let mut wanted = None;
     egui::ScrollArea::vertical().auto_shrink(false).show(&mut ui, |ui| {
         show_title(ui, area.0.height());
-        if let Some(trouble) = trouble.0.as_ref().filter(|_| area.0.height() < ROOMY) {
-            show_trouble(ui, trouble);
+        if let Some(file_error) = file_error.0.as_ref().filter(|_| area.0.height() < ROOMY) {
+            show_file_error(ui, file_error);
         }
         wanted = show_cards(ui, &mut cards);
-        if let Some(trouble) = trouble.0.as_ref().filter(|_| area.0.height() >= ROOMY) {
-            show_trouble(ui, trouble);
+        if let Some(file_error) = file_error.0.as_ref().filter(|_| area.0.height() >= ROOMY) {
+            show_file_error(ui, file_error);
         }
     });
     if wanted.is_some() {
-        wish.0 = wanted;
+        pending.0 = wanted;
     }
     Ok(())
 }
@@ -155,10 +154,10 @@ fn show_card(ui: &mut egui::Ui, number: usize, width: f32, cards: &mut Cards) ->
     }
 }
 
-fn show_trouble(ui: &mut egui::Ui, trouble: &str) {
+fn show_file_error(ui: &mut egui::Ui, file_error: &str) {
     ui.vertical_centered(|ui| {
         let frame = style::panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 8)).corner_radius(6);
-        frame.show(ui, |ui| ui.add(egui::Label::new(RichText::new(trouble).color(Color32::WHITE)).wrap()));
+        frame.show(ui, |ui| ui.add(egui::Label::new(RichText::new(file_error).color(Color32::WHITE)).wrap()));
     });
     ui.add_space(10.0);
 }

@@ -6,8 +6,8 @@ use bevy::prelude::*;
 use bevy_egui::egui;
 use egui::{RichText, vec2};
 
+use crate::app::match_request::MatchRequest;
 use crate::app::view::colours::{self, egui as paint};
-use crate::app::view::state::MatchRequest;
 use crate::app::view::style;
 use crate::app::view::style::SMALL;
 use crate::data::{AssetFolder, AssetKind, Source};

@@ -10,8 +10,7 @@ use crate::app::view::state::{OpenPanels, PanelSizes, RememberedPanels};
 use crate::data::{Bound, DataError, Field, Source};
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<PanelSizes>()
-        .add_systems(PreStartup, load.run_if(resource_exists::<SettingsFile>))
+    app.add_systems(PreStartup, load.run_if(resource_exists::<SettingsFile>))
         .add_systems(Last, save.run_if(resource_exists::<SettingsFile>));
 }
 
@@ -119,7 +118,9 @@ mod tests {
 
     fn window(file: &Path) -> App {
         let mut app = App::new();
-        app.add_plugins((MinimalPlugins, plugin)).init_resource::<RememberedPanels>();
+        app.add_plugins((MinimalPlugins, plugin))
+            .init_resource::<RememberedPanels>()
+            .init_resource::<PanelSizes>();
         app.init_resource::<ButtonInput<MouseButton>>();
         app.insert_resource(SettingsFile(file.to_owned()));
         app

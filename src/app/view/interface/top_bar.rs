@@ -16,7 +16,7 @@ use crate::world::referee::{MatchState, Phase};
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(
         EguiPrimaryContextPass,
-        (show_top_bar, show_trouble).chain().in_set(PanelSystems::Top).run_if(in_state(Screen::Match)),
+        (show_top_bar, show_file_error).chain().in_set(PanelSystems::Top).run_if(in_state(Screen::Match)),
     );
 }
 
@@ -45,7 +45,7 @@ fn show_top_bar(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
     (state, strategies): (Res<MatchState>, Res<Strategies>),
-    (call, pace, session): (Res<Announcement>, Res<Playback>, Res<Session>),
+    (announcement, playback, session): (Res<Announcement>, Res<Playback>, Res<Session>),
 ) -> Result {
     if area.0.height() < LEAST_WINDOW {
         return Ok(());
@@ -79,9 +79,9 @@ fn show_top_bar(
         let clock = one_line(ui, &clock, 16.0, room);
         let at = Align2::RIGHT_CENTER.anchor_size(pos2(middle - 14.0, second), clock.size()).min;
         painter.galley(at, clock, paint(colours::TEXT));
-        let (text, colour) = match call.text() {
-            Some(call) => (call, colours::CALL),
-            None => (phase_text(&state, pace.paused), colours::QUIET),
+        let (text, colour) = match announcement.text() {
+            Some(announcement) => (announcement, colours::CALL),
+            None => (phase_text(&state, playback.paused), colours::QUIET),
         };
         let text = one_line(ui, text, 16.0, room);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(middle + 14.0, second), text.size()).min;
@@ -123,12 +123,12 @@ fn arrow(painter: &egui::Painter, at: egui::Pos2, way: f32, colour: Color32) {
     painter.add(egui::Shape::convex_polygon(points, colour, egui::Stroke::NONE));
 }
 
-fn show_trouble(
+fn show_file_error(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
-    mut trouble: ResMut<FileError>,
+    mut file_error: ResMut<FileError>,
 ) -> Result {
-    let Some(text) = trouble.0.clone() else { return Ok(()) };
+    let Some(text) = file_error.0.clone() else { return Ok(()) };
     let panel = egui::Panel::top("trouble")
         .resizable(false)
         .frame(panel_frame(colours::TROUBLE, egui::Margin::symmetric(12, 6)));
@@ -148,7 +148,7 @@ fn show_trouble(
         shown.inner
     });
     if closed {
-        trouble.0 = None;
+        file_error.0 = None;
     }
     Ok(())
 }

@@ -109,47 +109,47 @@ fn set_up_camera(mut commands: Commands, adapter: Option<Res<RenderAdapterInfo>>
     commands.spawn((Camera2d, if in_software { Msaa::Off } else { Msaa::Sample4 }));
 }
 
-fn look_at_new_match(_: On<MatchBegun>, mut sight: ResMut<PitchCamera>) {
-    (sight.fitted, sight.settled) = (true, false);
+fn look_at_new_match(_: On<MatchBegun>, mut camera: ResMut<PitchCamera>) {
+    (camera.fitted, camera.settled) = (true, false);
 }
 
 fn approach_fit(
     time: Res<Time>,
     (area, pitch): (Res<FreeArea>, Res<Pitch>),
-    mut sight: ResMut<PitchCamera>,
+    mut camera: ResMut<PitchCamera>,
     waiting: Query<(&Pose, &Robot), With<OffPitch>>,
 ) {
     if !area.0.is_positive() {
         return;
     }
-    sight.area = area.0;
-    if !sight.fitted {
+    camera.area = area.0;
+    if !camera.fitted {
         return;
     }
     // Those beside an open pitch wait far out; their labels come to the edge instead.
     let waiting = (waiting.iter().filter(|_| !is_open(&pitch)))
         .map(|(pose, robot)| (pose.position, extent(&robot.kind) + BENCH));
-    let goal = sight.fit(zone_to_show(&pitch, waiting));
-    let share = if sight.settled { 1.0 - bevy::math::ops::exp(-APPROACH * time.delta_secs()) } else { 1.0 };
+    let goal = camera.fit(zone_to_show(&pitch, waiting));
+    let share = if camera.settled { 1.0 - bevy::math::ops::exp(-APPROACH * time.delta_secs()) } else { 1.0 };
     let settled = true;
-    *sight = PitchCamera {
-        centre: sight.centre.lerp(goal.centre, share),
-        scale: sight.scale + (goal.scale - sight.scale) * share,
+    *camera = PitchCamera {
+        centre: camera.centre.lerp(goal.centre, share),
+        scale: camera.scale + (goal.scale - camera.scale) * share,
         settled,
         ..goal
     };
 }
 
 fn aim_camera(
-    sight: Res<PitchCamera>,
+    pitch_camera: Res<PitchCamera>,
     window: Single<&Window, With<PrimaryWindow>>,
     camera: Single<(&mut Transform, &mut Projection), With<Camera2d>>,
 ) {
     let (mut transform, mut projection) = camera.into_inner();
-    let middle = sight.to_pitch(egui::pos2(window.width() / 2.0, window.height() / 2.0));
+    let middle = pitch_camera.to_pitch(egui::pos2(window.width() / 2.0, window.height() / 2.0));
     transform.translation = middle.extend(0.0);
     if let Projection::Orthographic(projection) = &mut *projection {
-        projection.scale = 1.0 / sight.scale;
+        projection.scale = 1.0 / pitch_camera.scale;
     }
 }
 
@@ -157,7 +157,7 @@ fn aim_camera(
 mod tests {
     use super::*;
 
-    fn sight() -> PitchCamera {
+    fn camera() -> PitchCamera {
         let area = egui::Rect::from_min_max(egui::pos2(0.0, 60.0), egui::pos2(1000.0, 660.0));
         PitchCamera { area, ..PitchCamera::default() }
     }
@@ -168,10 +168,10 @@ mod tests {
 
     #[test]
     fn a_fit_shows_the_whole_zone_and_wastes_nothing() {
-        let sight = sight().fit(zone());
-        let (top, bottom) = (sight.to_screen(Vec2::new(-5.0, 4.0)), sight.to_screen(Vec2::new(5.0, -3.0)));
-        assert!(sight.area.contains(top) && sight.area.expand(0.01).contains(bottom), "{top} {bottom}");
-        assert!((bottom.y - top.y - sight.area.height()).abs() < 0.01, "{top} {bottom}");
+        let camera = camera().fit(zone());
+        let (top, bottom) = (camera.to_screen(Vec2::new(-5.0, 4.0)), camera.to_screen(Vec2::new(5.0, -3.0)));
+        assert!(camera.area.contains(top) && camera.area.expand(0.01).contains(bottom), "{top} {bottom}");
+        assert!((bottom.y - top.y - camera.area.height()).abs() < 0.01, "{top} {bottom}");
     }
 
     #[test]
@@ -199,16 +199,16 @@ mod tests {
 
     #[test]
     fn the_window_and_the_pitch_agree_both_ways() {
-        let sight = sight().fit(zone());
+        let camera = camera().fit(zone());
         let point = Vec2::new(1.5, -2.25);
-        assert!((sight.to_pitch(sight.to_screen(point)) - point).length() < 1e-4);
-        assert!(sight.to_screen(Vec2::Y).y < sight.to_screen(Vec2::ZERO).y, "north is up");
+        assert!((camera.to_pitch(camera.to_screen(point)) - point).length() < 1e-4);
+        assert!(camera.to_screen(Vec2::Y).y < camera.to_screen(Vec2::ZERO).y, "north is up");
     }
 
     #[test]
     fn a_zoom_holds_the_point_under_the_pointer() {
         let pointer = egui::pos2(200.0, 500.0);
-        let before = sight().fit(zone());
+        let before = camera().fit(zone());
         let after = before.zoomed(1.7, pointer, 10.0);
         assert!((after.to_pitch(pointer) - before.to_pitch(pointer)).length() < 1e-4);
         assert!((after.scale / before.scale - 1.7).abs() < 1e-4);

@@ -29,16 +29,10 @@ use crate::world::ball::Ball;
 use crate::world::referee::MatchState;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<KeptPlaces>().init_resource::<LabelPlacement>().add_systems(
+    app.init_resource::<LabelPlacement>().add_systems(
         EguiPrimaryContextPass,
         write_on_pitch.in_set(PanelSystems::Pitch).run_if(in_state(Screen::Match)),
     );
-}
-
-/// Places of labels, kept from frame to frame so that they do not hop about.
-#[derive(Resource, Clone, Debug, Default)]
-struct KeptPlaces {
-    choices: BTreeMap<RobotId, LabelPlace>,
 }
 
 /// Activities are shown for all robots from this scale on, points to a metre.
@@ -106,9 +100,10 @@ pub fn off_text(state: &MatchState, robot: RobotId) -> String {
 
 fn write_on_pitch(
     mut contexts: EguiContexts,
-    (area, sight, overlays, selected): (Res<FreeArea>, Res<PitchCamera>, Res<Overlays>, Res<Selected>),
+    (area, camera, overlays, selected): (Res<FreeArea>, Res<PitchCamera>, Res<Overlays>, Res<Selected>),
     (state, strategies, conditions): (Res<MatchState>, Res<Strategies>, Res<Conditions>),
-    (mut kept, mut placed): (ResMut<KeptPlaces>, ResMut<LabelPlacement>),
+    // Labels keep their places from frame to frame, so that they do not hop about.
+    (mut placed, mut kept): (ResMut<LabelPlacement>, Local<BTreeMap<RobotId, LabelPlace>>),
     shown: Query<(&BodyVisual, Option<&Plate>)>,
     robots: Query<Labelled>,
     (kind, ball): (Res<BallKind>, Query<(), With<Ball>>),
@@ -127,9 +122,9 @@ fn write_on_pitch(
             (.., Ok(robot)) => BODY * reach(&robot.robot.kind),
             _ => continue,
         };
-        let reach = reach * sight.scale;
+        let reach = reach * camera.scale;
         let body = egui::Rect::from_center_size(
-            sight.to_screen(shown.pose.position),
+            camera.to_screen(shown.pose.position),
             egui::Vec2::splat(2.0 * reach),
         );
         placed.add_body(body);
@@ -137,19 +132,19 @@ fn write_on_pitch(
     let mut labelled: Vec<_> = shown.iter().filter_map(|(drawn, plate)| Some((*drawn, *plate?))).collect();
     labelled.sort_unstable_by_key(|(_, plate)| (selected.0 != Some(plate.of), plate.of));
     for (drawn, plate) in labelled {
-        let mut at = sight.to_screen(drawn.pose.to_field(plate.middle));
+        let mut at = camera.to_screen(drawn.pose.to_field(plate.middle));
         let unit = shown.iter().find(|(shown, _)| shown.robot == Some(plate.of)).map(|(unit, _)| unit);
         let Some((unit, robot)) = unit.and_then(|unit| Some((unit, robots.get(unit.body).ok()?))) else {
             continue;
         };
-        let mut middle = at.lerp(sight.to_screen(unit.pose.position), 0.5);
-        let mut reach = plate.reach * sight.scale;
+        let mut middle = at.lerp(camera.to_screen(unit.pose.position), 0.5);
+        let mut reach = plate.reach * camera.scale;
         let edge = area.0.shrink(EDGE);
         if robot.off_pitch && !edge.contains(middle) {
             // Robots that wait out of sight are told at the edge.
             (at, middle, reach) = (nearest_within(edge, at), nearest_within(edge, middle), PLATE);
         }
-        write_number(&painter, at, &plate, sight.scale);
+        write_number(&painter, at, &plate, camera.scale);
         let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
         let cut_off = conditions.cut_off.contains(robot.id);
         let signs = StatusIcon::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
@@ -163,15 +158,15 @@ fn write_on_pitch(
         if !(overlays.shows(Overlay::Labels) || is_selected || robot.off_pitch) {
             continue;
         }
-        let with_activity = is_selected || sight.scale > NEAR;
+        let with_activity = is_selected || camera.scale > NEAR;
         let lines = lines(&robot, strategies.of(plate.of.team), &state, with_activity);
         let galley = lay_out(&painter, &lines);
-        let choice = kept.choices.entry(plate.of).or_default();
+        let choice = kept.entry(plate.of).or_default();
         let room = galley.size() + 2.0 * PADDING;
         let reach = if is_selected || robot.piloted { RINGS * reach } else { reach };
         let (rect, taken) = placed.place(middle, reach + 4.0, room, *choice);
         *choice = taken;
-        painter.rect_filled(rect, 4.0, egui::Color32::from_black_alpha(150));
+        painter.rect_filled(rect, 4.0, GROUND);
         painter.galley(rect.center_top() + egui::vec2(0.0, PADDING.y), galley, egui::Color32::WHITE);
     }
     Ok(())
@@ -188,6 +183,9 @@ fn write_number(painter: &egui::Painter, at: egui::Pos2, plate: &Plate, scale: f
     let number = plate.of.number.to_string();
     painter.text(at, egui::Align2::CENTER_CENTER, number, font(size), paint(colours::ROBOT));
 }
+
+/// The ground of a label, dark enough for white text upon a white wall.
+pub const GROUND: egui::Color32 = egui::Color32::from_black_alpha(190);
 
 /// Room around a label's text, in points.
 pub const PADDING: egui::Vec2 = egui::vec2(5.0, 1.0);

@@ -106,9 +106,9 @@ fn remember_poses(bodies: Query<&Pose>, mut shown: Query<&mut BodyVisual>) {
     }
 }
 
-fn place_shown(pace: Res<Playback>, mut shown: Query<(&mut BodyVisual, &mut Transform)>) {
+fn place_shown(playback: Res<Playback>, mut shown: Query<(&mut BodyVisual, &mut Transform)>) {
     for (mut shown, mut transform) in &mut shown {
-        shown.pose = between(shown.before, shown.after, pace.between);
+        shown.pose = between(shown.before, shown.after, playback.between);
         transform.translation = shown.pose.position.extend(shown.height);
         transform.rotation = Quat::from_rotation_z(shown.pose.heading);
     }

@@ -123,13 +123,13 @@ fn remember_heads(heads: Query<&Head>, mut drawn: Query<(&BodyVisual, &mut HeadV
 
 fn turn_gaze(
     time: Res<Time>,
-    pace: Res<Playback>,
+    playback: Res<Playback>,
     robots: Query<&Handling>,
     mut drawn: Query<(&BodyVisual, &mut HeadVisual)>,
 ) {
     let step = NOD * time.delta_secs();
     for (shown, mut gaze) in &mut drawn {
-        gaze.turn(pace.between);
+        gaze.turn(playback.between);
         let down = robots.get(shown.body).is_ok_and(Handling::hides_ball);
         let goal = if down { 1.0 } else { 0.0 };
         gaze.chin += (goal - gaze.chin).clamp(-step, step);
@@ -144,14 +144,14 @@ fn carried_out(kicking: &Kicking, now: f64) -> f32 {
 }
 
 fn move_limbs(
-    (clock, pace): (Res<Clock>, Res<Playback>),
+    (clock, playback): (Res<Clock>, Res<Playback>),
     robots: Query<&Handling>,
     kinds: Query<&crate::robot::Robot>,
     drawn: Query<(&BodyVisual, &HeadVisual)>,
     mut limbs: Query<(&ChildOf, &Limb, &mut Transform, &mut Visibility)>,
 ) {
     // Bodies are shown on their way from the tick before the last to the last.
-    let now = clock.tick as f64 - 2.0 + f64::from(pace.between);
+    let now = clock.tick as f64 - 2.0 + f64::from(playback.between);
     for (of, limb, mut transform, mut visibility) in &mut limbs {
         let Ok((shown, gaze)) = drawn.get(of.parent()) else { continue };
         let kicking = robots.get(shown.body).ok().and_then(|handling| handling.kicking);

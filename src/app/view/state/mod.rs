@@ -21,7 +21,7 @@ pub use news::{Announcement, FileError, TimelineEvent, TimelineEvents};
 pub use overlays::{Overlay, Overlays, Press, shows};
 pub use panels::{Inspector, OpenDialogues, OpenPanels, PanelSizes, Question, RememberedPanels};
 pub use playback::Playback;
-pub use session::{Folder, MatchBegun, MatchRequest, PendingMatch, Session};
+pub use session::{Folder, MatchBegun, PendingMatch, Session};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_state::<Screen>()

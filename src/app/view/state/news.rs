@@ -65,11 +65,11 @@ mod tests {
 
     #[test]
     fn a_call_that_has_been_read_gives_way_to_anything() {
-        let mut call = Announcement::default();
-        call.say("Half time".into(), 3);
-        call.pass(SHOWN);
-        assert_eq!(call.text(), None);
-        call.say("Play".into(), 0);
-        assert_eq!(call.text(), Some("Play"));
+        let mut announcement = Announcement::default();
+        announcement.say("Half time".into(), 3);
+        announcement.pass(SHOWN);
+        assert_eq!(announcement.text(), None);
+        announcement.say("Play".into(), 0);
+        assert_eq!(announcement.text(), Some("Play"));
     }
 }

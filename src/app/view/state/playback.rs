@@ -73,50 +73,50 @@ mod tests {
     #[test]
     fn real_time_runs_sixty_ticks_a_second_whatever_the_frame_rate() {
         for frames in [24, 60, 144] {
-            let mut pace = Playback::default();
-            let ticks: u32 = (0..frames).map(|_| pace.take_ticks(1.0 / frames as f32, DT)).sum();
+            let mut playback = Playback::default();
+            let ticks: u32 = (0..frames).map(|_| playback.take_ticks(1.0 / frames as f32, DT)).sum();
             assert!((59..=60).contains(&ticks), "{ticks} at {frames} frames/s");
         }
     }
 
     #[test]
     fn slow_motion_moves_the_picture_between_ticks() {
-        let mut pace = Playback { speed: 0, ..Playback::default() };
-        assert_eq!(pace.take_ticks(DT, DT), 0);
-        assert!((pace.between - 0.125).abs() < 1e-4, "{}", pace.between);
+        let mut playback = Playback { speed: 0, ..Playback::default() };
+        assert_eq!(playback.take_ticks(DT, DT), 0);
+        assert!((playback.between - 0.125).abs() < 1e-4, "{}", playback.between);
     }
 
     #[test]
     fn fast_forward_runs_several_ticks_a_frame() {
-        let mut pace = Playback { speed: 9, ..Playback::default() };
-        let ticks: u32 = (0..10).map(|_| pace.take_ticks(DT, DT)).sum();
+        let mut playback = Playback { speed: 9, ..Playback::default() };
+        let ticks: u32 = (0..10).map(|_| playback.take_ticks(DT, DT)).sum();
         assert!((639..=640).contains(&ticks), "{ticks}");
     }
 
     #[test]
     fn a_pause_runs_single_ticks_only_and_goes_on_from_there() {
-        let mut pace = Playback { paused: true, ..Playback::default() };
-        assert_eq!(pace.take_ticks(0.1, DT), 0);
-        pace.single_ticks = 2;
-        assert_eq!(pace.take_ticks(0.1, DT), 2);
-        assert_eq!((pace.single_ticks, pace.between), (0, 1.0));
-        pace.paused = false;
-        pace.take_ticks(0.0, DT);
-        assert!(pace.between > 0.99, "the picture does not jump back: {}", pace.between);
+        let mut playback = Playback { paused: true, ..Playback::default() };
+        assert_eq!(playback.take_ticks(0.1, DT), 0);
+        playback.single_ticks = 2;
+        assert_eq!(playback.take_ticks(0.1, DT), 2);
+        assert_eq!((playback.single_ticks, playback.between), (0, 1.0));
+        playback.paused = false;
+        playback.take_ticks(0.0, DT);
+        assert!(playback.between > 0.99, "the picture does not jump back: {}", playback.between);
     }
 
     #[test]
     fn a_frame_that_took_seconds_is_not_made_up_for() {
-        let mut pace = Playback::default();
-        assert_eq!(pace.take_ticks(5.0, DT), 6);
+        let mut playback = Playback::default();
+        assert_eq!(playback.take_ticks(5.0, DT), 6);
     }
 
     #[test]
     fn speeds_stop_at_both_ends() {
-        let mut pace = Playback::default();
-        (0..20).for_each(|_| pace.faster());
-        assert_eq!(pace.factor(), 64.0);
-        (0..20).for_each(|_| pace.slower());
-        assert_eq!(pace.factor(), 0.125);
+        let mut playback = Playback::default();
+        (0..20).for_each(|_| playback.faster());
+        assert_eq!(playback.factor(), 64.0);
+        (0..20).for_each(|_| playback.slower());
+        assert_eq!(playback.factor(), 0.125);
     }
 }

@@ -1,35 +1,16 @@
 //! The match that the window plays, and the one that a person wants next.
 
-use std::path::PathBuf;
-
 use bevy::prelude::*;
 
+use crate::app::match_request::MatchRequest;
 use crate::data::AssetFolder;
-use crate::game::{Choice, MatchPlan};
+use crate::game::MatchPlan;
 use crate::ids::Team;
 use crate::lab::scenario::ScenarioPlan;
 
 /// Where the files are.
 #[derive(Resource, Clone, Debug)]
 pub struct Folder(pub AssetFolder);
-
-/// What a person wants to see.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MatchRequest {
-    Match(Choice),
-    /// A scenario with one of its seeds or with any other.
-    Scenario {
-        path: PathBuf,
-        /// Its first one, if not given.
-        seed: Option<u64>,
-    },
-}
-
-impl Default for MatchRequest {
-    fn default() -> MatchRequest {
-        MatchRequest::Match(Choice::default())
-    }
-}
 
 /// What is wanted next.
 #[derive(Resource, Clone, Debug, Default)]
@@ -39,7 +20,7 @@ pub struct PendingMatch(pub Option<MatchRequest>);
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Session {
     /// What it was made of.
-    pub wanted: MatchRequest,
+    pub request: MatchRequest,
     /// What that came to; none before the first match.
     pub plan: Option<MatchPlan>,
     /// The scenario that it belongs to.

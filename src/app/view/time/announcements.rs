@@ -11,7 +11,7 @@ use crate::world::referee::{Decision, MatchState, PlacementReason, RuleBook, Whi
 pub(super) fn plugin(app: &mut App) {
     app.add_observer(forget)
         .add_systems(AfterTick, note_decisions)
-        .add_systems(Update, let_call_pass.in_set(FrameSystems::Picture));
+        .add_systems(Update, let_announcement_pass.in_set(FrameSystems::Picture));
 }
 
 /// How much a decision matters to a spectator; several fall at once, and one is shown.
@@ -42,28 +42,28 @@ pub fn played(state: &MatchState, book: &RuleBook) -> f64 {
     f64::from(state.half) * book.half_seconds() - state.time_left
 }
 
-fn forget(_: On<MatchBegun>, mut call: ResMut<Announcement>, mut events: ResMut<TimelineEvents>) {
-    *call = Announcement::default();
+fn forget(_: On<MatchBegun>, mut announcement: ResMut<Announcement>, mut events: ResMut<TimelineEvents>) {
+    *announcement = Announcement::default();
     events.0.clear();
 }
 
 fn note_decisions(
     (clock, whistles, state, book): (Res<Clock>, Res<Whistles>, Res<MatchState>, Res<RuleBook>),
-    mut call: ResMut<Announcement>,
+    mut announcement: ResMut<Announcement>,
     mut events: ResMut<TimelineEvents>,
 ) {
     let last_tick = clock.tick.saturating_sub(1);
     let fresh = whistles.heard.iter().rev().take_while(|(tick, _)| *tick == last_tick).count();
     for (_, decision) in whistles.heard.iter().skip(whistles.heard.len() - fresh) {
-        call.say(decision.to_string(), weight(decision));
+        announcement.say(decision.to_string(), weight(decision));
         if is_event(decision) {
             events.0.push(TimelineEvent { decision: *decision, played: played(&state, &book) });
         }
     }
 }
 
-fn let_call_pass(time: Res<Time<Real>>, mut call: ResMut<Announcement>) {
-    call.pass(time.delta_secs());
+fn let_announcement_pass(time: Res<Time<Real>>, mut announcement: ResMut<Announcement>) {
+    announcement.pass(time.delta_secs());
 }
 
 #[cfg(test)]
@@ -74,15 +74,15 @@ mod tests {
 
     #[test]
     fn a_goal_is_not_talked_over_by_the_kick_off_that_follows() {
-        let mut call = Announcement::default();
+        let mut announcement = Announcement::default();
         for decision in [
             Decision::Goal { by: Team::Home, score: [1, 0] },
             Decision::RobotsPlaced { kick_off: Some(Team::Away) },
             Decision::PhaseChanged(Phase::Ready),
         ] {
-            call.say(decision.to_string(), weight(&decision));
+            announcement.say(decision.to_string(), weight(&decision));
         }
-        assert_eq!(call.text(), Some("Goal for home, 1:0"));
+        assert_eq!(announcement.text(), Some("Goal for home, 1:0"));
     }
 
     #[test]

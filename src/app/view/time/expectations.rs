@@ -88,8 +88,8 @@ fn look(world: &mut World) {
         ends = tick == expectations.end;
     }
     if ends {
-        if let Some(mut pace) = world.get_resource_mut::<Playback>() {
-            pace.paused = true;
+        if let Some(mut playback) = world.get_resource_mut::<Playback>() {
+            playback.paused = true;
         }
         let passed = expectations.whole() == ExpectationStatus::Met;
         let news = if passed { "The scenario is over: passed" } else { "The scenario is over: failed" };

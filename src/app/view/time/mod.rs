@@ -42,10 +42,10 @@ fn pass_time(world: &mut World) {
     let elapsed = world.resource::<Time<Real>>().delta_secs();
     let dt = world.resource::<Clock>().dt;
     let refereed = world.contains_resource::<BoxNews>();
-    let mut pace = world.resource_mut::<Playback>();
+    let mut playback = world.resource_mut::<Playback>();
     // A referee box has the clock of the room, at any speed.
-    let elapsed = if refereed { elapsed / pace.factor() } else { elapsed };
-    let due = pace.take_ticks(elapsed, dt);
+    let elapsed = if refereed { elapsed / playback.factor() } else { elapsed };
+    let due = playback.take_ticks(elapsed, dt);
     net::grant(world, ROBOTS_BUDGET);
     let began = Instant::now();
     for _ in 0..due {
@@ -60,8 +60,8 @@ fn pass_time(world: &mut World) {
 /// The match is announced while it stands still, too.
 fn announce(world: &mut World) {
     let elapsed = world.resource::<Time<Real>>().delta_secs();
-    if let Some(trouble) = net::announce_in_real_time(world, elapsed) {
-        world.resource_mut::<FileError>().0 = Some(trouble);
+    if let Some(file_error) = net::announce_in_real_time(world, elapsed) {
+        world.resource_mut::<FileError>().0 = Some(file_error);
     }
 }
 
@@ -72,9 +72,10 @@ fn is_over(world: &World) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::match_request::MatchRequest;
     use crate::app::view::picture::visuals::BodyVisual;
     use crate::app::view::played_without_a_window;
-    use crate::app::view::state::{MatchRequest, PendingMatch};
+    use crate::app::view::state::PendingMatch;
     use crate::data::AssetFolder;
     use crate::game::record::Record;
     use crate::game::{Choice, Match, MatchPlan};
@@ -149,8 +150,8 @@ mod tests {
             assert!((9..=11).contains(&count), "{count} packets in five seconds at speed {speed}");
             assert_eq!(app.world().resource::<Clock>().tick == before, paused);
         }
-        let pace = &mut app.world_mut().resource_mut::<Playback>();
-        (pace.speed, pace.paused) = (9, false);
+        let playback = &mut app.world_mut().resource_mut::<Playback>();
+        (playback.speed, playback.paused) = (9, false);
         while !is_over(app.world()) {
             heard(&mut app, 1);
         }

@@ -91,7 +91,7 @@ fn take_over_changes(
     mut watched: ResMut<Watched>,
     (mut session, folder): (ResMut<Session>, Res<Folder>),
     mut requests: ResMut<Requests>,
-    (mut call, mut trouble): (ResMut<Announcement>, ResMut<FileError>),
+    (mut announcement, mut file_error): (ResMut<Announcement>, ResMut<FileError>),
 ) {
     for (team, watch) in &mut watched.0 {
         let team = *team;
@@ -103,15 +103,15 @@ fn take_over_changes(
         watch.turn_to(reading.files.clone(), read);
         match reading.strategy {
             Ok(strategy) => {
-                call.tell(format!("The {team} team plays on with its changed file"));
-                trouble.0 = None;
+                announcement.tell(format!("The {team} team plays on with its changed file"));
+                file_error.0 = None;
                 let strategy = Arc::new(strategy);
                 let plan = &mut plan.teams[team.index()];
                 plan.strategy = strategy.clone();
                 plan.strategy_files = reading.files;
                 requests.ask(Request::ChangeStrategy { team, strategy });
             }
-            Err(error) => trouble.0 = Some(format!("{error}. The {team} team plays on with what it had")),
+            Err(error) => file_error.0 = Some(format!("{error}. The {team} team plays on with what it had")),
         }
     }
 }

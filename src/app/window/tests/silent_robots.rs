@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use egui::{Rect, vec2};
 
 use super::{LaidOutWindow, assets, egui};
+use crate::app::match_request::MatchRequest;
 use crate::app::view::colours;
-use crate::app::view::state::MatchRequest;
 use crate::app::view::time::remote_robots::Missing;
 use crate::app::view::time::remote_robots::tests::{REMOTE, write_addresses};
 use crate::clock::Clock;
