@@ -74,9 +74,11 @@ fn dock(
 
 fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
     set_close(ui);
+    // A copy, since a seat that seems to change is asked to steer.
+    let mut piloted = *changes.piloted;
     let mut actions = PanelActions {
         requests: &mut changes.requests,
-        piloted: &mut changes.piloted,
+        piloted: &mut piloted,
         control: &mut changes.control,
         file: changes.session.plan.as_ref().map(|plan| plan.team(robot.id.team)),
         open: &mut changes.inspector.open,
@@ -92,6 +94,7 @@ fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
             .auto_shrink(false)
             .show(ui, |ui| sections::draw(ui, robot, &mut actions));
     });
+    changes.piloted.set_if_neq(piloted);
 }
 
 /// Much is to be seen at once here, so type and rows are as small as they may be anywhere.

@@ -24,6 +24,7 @@ use crate::app::view::state::{
 use crate::app::{inspector, view};
 use crate::data::{AssetFolder, AssetKind};
 use crate::game::Choice;
+use crate::game::requests::Requests;
 use crate::ids::{RobotId, Team};
 use crate::world::referee::{MatchState, Removal, RemovalReason};
 
@@ -318,6 +319,18 @@ fn a_player_sees_no_inspector_and_no_vectors_until_they_are_asked_for() {
     program.app.insert_resource(Piloted(Some(ROBOT)));
     assert!(program.show(vec2(1280.0, 720.0), 1.0).shows("Motor"));
     assert_eq!(*program.app.world().resource::<Overlays>(), Overlays::only([Overlay::Labels]));
+}
+
+#[test]
+fn an_open_inspector_asks_for_nothing_by_itself() {
+    let mut window = LaidOutWindow::playing(Some(ROBOT)).open([Overlay::Labels]);
+    window.app.insert_resource(Playback { paused: true, ..Playback::default() });
+    let mut asked = || {
+        let frame = window.show(vec2(1280.0, 720.0), 1.0);
+        assert!(frame.shows("Hand back"), "{:?}", frame.texts);
+        window.app.world().resource::<Requests>().iter().count()
+    };
+    assert_eq!(asked(), asked());
 }
 
 #[test]
