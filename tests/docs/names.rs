@@ -21,6 +21,29 @@ fn every_link_leads_to_a_file_and_a_heading() {
     assert!(missing.is_empty(), "{missing:#?}");
 }
 
+#[test]
+fn the_contents_list_every_page() {
+    let contents = Page::read("docs/README.md");
+    let listed: Vec<_> = contents.links().iter().map(|link| contents.target(link)).collect();
+    for page in pages().iter().filter(|page| page.path.starts_with("docs/") && page.path != contents.path) {
+        assert!(listed.contains(&root().join(&page.path)), "{} is not in the contents", page.path);
+    }
+}
+
+#[test]
+fn every_cargo_command_is_one_of_cargos_or_an_alias() {
+    let aliases =
+        std::fs::read_to_string(root().join(".cargo/config.toml")).expect("the aliases can be read");
+    let builtin = ["bench", "fuzz", "run", "test", "tree"];
+    for page in pages() {
+        for command in page.blocks("sh").flat_map(str::lines).chain(page.code()) {
+            let name = command.strip_prefix("cargo ").and_then(|rest| rest.split_whitespace().next());
+            let is_known = |name: &str| builtin.contains(&name) || aliases.contains(&format!("\n{name} = "));
+            assert!(name.is_none_or(is_known), "{}: {command}", page.path);
+        }
+    }
+}
+
 fn has_heading(path: &Path, heading: &str) -> bool {
     let text = std::fs::read_to_string(path).expect("the page can be read");
     Page { path: String::new(), text }.anchors().iter().any(|anchor| anchor == heading)
