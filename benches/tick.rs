@@ -58,7 +58,7 @@ fn silenced(mut plan: MatchPlan) -> MatchPlan {
     plan
 }
 
-/// A match that starts anew when it is over.
+/// A match that restarts when it is over.
 struct Season {
     plan: MatchPlan,
     game: Match,

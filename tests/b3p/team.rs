@@ -20,7 +20,7 @@ pub struct Team {
     /// All robots turn before any message arrives in that tick.
     pub in_phase: bool,
     pub ball: Ball,
-    /// A measured distance is too great by up to so much, anew in each turn.
+    /// A measured distance is too great by up to this much, drawn in each turn.
     pub noise: u8,
     pub misfortune: Misfortune,
     pub release: Release,

@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::where_there_is_no_display;
 use crate::support::strategy_text;
 
-/// Starts the program. Whoever runs the tests may have shielded them from Ctrl-C, which children inherit.
+/// Starts the program. The tests may run shielded from Ctrl-C, which children inherit.
 fn start(arguments: &[&str]) -> Child {
     let mut command = if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
