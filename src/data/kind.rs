@@ -5,18 +5,26 @@ use std::fmt;
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum AssetKind {
+    /// What a team does.
     Strategy,
+    /// A situation with expectations.
     Scenario,
+    /// Who plays whom, where and by which rules.
     Match,
+    /// A pitch with its goals.
     Pitch,
+    /// A kind of robot.
     Robot,
+    /// How well robots sense.
     Sensing,
+    /// How good the radio is.
     Radio,
     /// Where robots and computers are.
     Addresses,
 }
 
 impl AssetKind {
+    /// Every kind.
     pub const ALL: [AssetKind; 8] = [
         AssetKind::Strategy,
         AssetKind::Scenario,

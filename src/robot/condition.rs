@@ -16,14 +16,17 @@ pub struct Condition {
 }
 
 impl Condition {
+    /// Whether it receives messages.
     pub fn hears(&self) -> bool {
         !self.crashed && !self.deaf
     }
 
+    /// Whether its wheels or legs move.
     pub fn drives(&self) -> bool {
         !self.crashed && !self.frozen
     }
 
+    /// Whether nothing is wrong with it.
     pub fn is_well(&self) -> bool {
         *self == Condition::default()
     }
@@ -43,9 +46,13 @@ impl Condition {
 /// What can befall a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Ailment {
+    /// It neither moves nor thinks nor talks.
     Crashed,
+    /// Its wheels or legs stand still.
     Frozen,
+    /// It receives nothing.
     Deaf,
+    /// Nothing that it sends leaves it.
     Mute,
 }
 

@@ -5,8 +5,11 @@ use super::Walker;
 /// A velocity in the robot's own frame: m/s ahead and to the left, and rad/s counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Gait {
+    /// m/s.
     pub ahead: f32,
+    /// m/s.
     pub left: f32,
+    /// rad/s, counter-clockwise.
     pub turn: f32,
 }
 

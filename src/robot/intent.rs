@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Where a robot wants to go. Headings are in the odometry's frame, so that the drive can follow them between decisions.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum SteeringIntent {
+    /// Stand still.
     #[default]
     Stop,
     /// A heading in radians, and a share of the top speed from -1 to 1; 0 turns on the spot, negative drives in reverse.
@@ -18,6 +19,7 @@ pub enum SteeringIntent {
 /// What a robot wants to do to the ball besides walking into it; written by the Motor stage.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Reflect)]
 pub enum KickIntent {
+    /// No kick.
     #[default]
     Nothing,
     /// Catch the ball under the chin, and keep it there.
@@ -29,6 +31,7 @@ pub enum KickIntent {
 /// Where a head should look, rad to the left of the body's heading; written by the Motor stage.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeadIntent {
+    /// rad, counter-clockwise from straight ahead.
     pub pan: f32,
     /// How fast it should turn there, rad/s.
     pub speed: f32,

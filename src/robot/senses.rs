@@ -14,6 +14,7 @@ use crate::rng::{Dice, Seed};
 /// What a robot's sensors say: the newest camera frame that has arrived.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Percepts {
+    /// The newest frame of the camera, if one has come.
     pub frame: Option<Frame>,
 }
 
@@ -22,6 +23,7 @@ pub struct Percepts {
 pub struct Frame {
     /// The tick in which the shutter opened.
     pub taken: u64,
+    /// The ball, if it was seen.
     pub ball: Option<Sighting>,
     /// Markers tell the team, not the number.
     pub robots: Vec<(Team, Sighting)>,
@@ -36,6 +38,7 @@ pub struct Frame {
 /// What wheels or legs report: a dead-reckoned pose in a frame of its own, and whether they move in vain.
 #[derive(Component, Clone, Debug)]
 pub struct Odometry {
+    /// Where the robot is by its own wheels or steps since the match began.
     pub pose: Pose,
     /// Speed ahead in m/s.
     pub speed: f32,
@@ -45,10 +48,12 @@ pub struct Odometry {
     pub stalled_for: f32,
     /// Distance since the last error was drawn, m.
     pub unjudged: f32,
+    /// The dice of its errors.
     pub dice: Dice,
 }
 
 impl Odometry {
+    /// A robot that has not moved.
     pub fn new(seed: Seed, robot: RobotId) -> Odometry {
         Odometry {
             pose: Pose::default(),

@@ -5,7 +5,9 @@ use super::DifferentialDrive;
 /// Ground speeds of the two driven wheels, m/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WheelSpeeds {
+    /// m/s.
     pub left: f32,
+    /// m/s.
     pub right: f32,
 }
 

@@ -30,8 +30,11 @@ pub struct Activity {
 /// A transition that was taken.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TransitionTaken {
+    /// When it was taken.
     pub tick: u64,
+    /// The state before.
     pub from: String,
+    /// The state after.
     pub to: String,
     /// The feature that fired.
     pub because: String,

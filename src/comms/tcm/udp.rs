@@ -20,10 +20,13 @@ pub struct UdpConn {
 /// What the operating system refused, and for which address.
 #[derive(Debug, thiserror::Error)]
 pub enum UdpError {
+    /// The socket cannot be opened.
     #[error("cannot listen at {address}: {}", why(source))]
     Bind { address: SocketAddr, source: io::Error },
+    /// A datagram cannot be sent.
     #[error("cannot send to {to}: {source}")]
     Send { to: SocketAddr, source: io::Error },
+    /// Datagrams cannot be received.
     #[error("cannot receive at {at}: {source}")]
     Receive { at: SocketAddr, source: io::Error },
 }

@@ -45,6 +45,7 @@ pub(super) struct LeaguePorts {
 }
 
 impl LeaguePorts {
+    /// Opens the socket.
     pub fn open(host: IpAddr, team_numbers: [u8; 2]) -> Result<LeaguePorts, UdpError> {
         let to = team_numbers.map(|number| SocketAddr::new(host, port_of(number)));
         Ok(LeaguePorts { conn: UdpConn::speaker(to[0])?, to, trouble: None })

@@ -13,6 +13,7 @@ use crate::strategy::teamwork::Mechanism;
 pub struct TimedEvent {
     /// s since the scenario began.
     pub at: f32,
+    /// What happens.
     pub what: Event,
 }
 
@@ -31,12 +32,10 @@ pub enum Event {
     /// The referee takes the robot off for the rest of the scenario.
     Penalise(RobotId),
     /// Ends a crash, a freeze, deafness and muteness.
-    Revive {
-        robot: RobotId,
-        memory: Recall,
-    },
+    Revive { robot: RobotId, memory: Recall },
     /// The robot is out of radio range of all others.
     CutOff(RobotId),
+    /// Ends [`Event::CutOff`].
     Reconnect(RobotId),
     /// No message crosses between the two groups.
     Partition(Vec<RobotId>, Vec<RobotId>),
@@ -46,6 +45,7 @@ pub enum Event {
     Jam(bool),
     /// The radio from now on, by its file's name.
     Radio(String),
+    /// Puts the ball somewhere, perhaps in motion.
     Ball {
         at: Vec2,
         /// m/s
@@ -53,10 +53,7 @@ pub enum Event {
         velocity: Vec2,
     },
     /// Adds to the robot's velocity, m/s.
-    Push {
-        robot: RobotId,
-        by: Vec2,
-    },
+    Push { robot: RobotId, by: Vec2 },
     /// Puts the robot elsewhere without telling it.
     Kidnap {
         robot: RobotId,
@@ -65,25 +62,33 @@ pub enum Event {
         facing: f32,
     },
     /// Makes the robot start a role swap: who holds the first role of a pair takes the second.
-    InitiateSwap {
-        robot: RobotId,
-        roles: Vec<(String, String)>,
-    },
+    InitiateSwap { robot: RobotId, roles: Vec<(String, String)> },
 }
 
 /// A piece of teamwork that a scenario may be about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Dependency {
+    /// [`Mechanism::Messages`].
     Messages,
+    /// [`Mechanism::TeammateAvoidance`].
     TeammateAvoidance,
+    /// [`Mechanism::HierarchicalAvoidance`].
     HierarchicalAvoidance,
+    /// [`Mechanism::Claims`].
     Claims,
+    /// [`Mechanism::HomebaseSelection`].
     HomebaseSelection,
+    /// [`Mechanism::GoalieSupport`].
     GoalieSupport,
+    /// [`Mechanism::OffensiveSupport`].
     OffensiveSupport,
+    /// [`Mechanism::FloaterDropsBack`].
     FloaterDropsBack,
+    /// [`Mechanism::RoleSwap`].
     RoleSwap,
+    /// [`Mechanism::BallReports`].
     BallReports,
+    /// [`Mechanism::BallBooking`].
     BallBooking,
     /// That roles are swapped by the hardened protocol and not by the paper's.
     HardenedSwap,

@@ -27,6 +27,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// Whether all expectations were met.
     pub fn passed(&self) -> bool {
         self.failures.is_empty()
     }
@@ -39,6 +40,7 @@ pub struct Failure {
     pub expectation: String,
     /// When that was settled.
     pub tick: u64,
+    /// When, s since the scenario began.
     pub seconds: f64,
     /// The values seen.
     pub reason: String,

@@ -53,6 +53,7 @@ impl Lasting {
 }
 
 impl Memory {
+    /// Memory for this many operators.
     pub fn new(slots: usize) -> Memory {
         Memory { cells: vec![OperatorState::default(); slots], decision: 0 }
     }

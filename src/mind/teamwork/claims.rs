@@ -14,8 +14,11 @@ pub struct Claims(SmallVec<[Claim; 8]>);
 /// What a team mate said last about having the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Claim {
+    /// The claimant's number.
     pub by: PlayerNumber,
+    /// The claimant's role.
     pub role: RoleIndex,
+    /// Whether it has the ball.
     pub have_ball: bool,
     /// Milliseconds on the sender's clock.
     pub time: u32,

@@ -13,6 +13,7 @@ pub struct BallReports(SmallVec<[Reported; 4]>);
 /// What one of them said.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reported {
+    /// The reporter's number.
     pub by: PlayerNumber,
     /// m in the team frame.
     pub position: Vec2,

@@ -18,10 +18,12 @@ impl Distance {
         if millimetres.is_finite() { finite } else { Distance::INFINITE }
     }
 
+    /// In metres.
     pub fn metres(self) -> f32 {
         if self == Distance::INFINITE { f32::INFINITY } else { self.0 as f32 / 1000.0 }
     }
 
+    /// Whether the booker cannot reach the ball.
     pub fn is_infinite(self) -> bool {
         self == Distance::INFINITE
     }

@@ -7,19 +7,15 @@ use crate::robot::Chin;
 /// What the chin is doing, in ticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Grip {
+    /// The head is up.
     #[default]
     Open,
     /// The head is going down and reaches the ball in this tick.
-    Lowering {
-        until: u64,
-    },
-    Holding {
-        since: u64,
-    },
+    Lowering { until: u64 },
+    /// The ball is under the chin.
+    Holding { since: u64 },
     /// An attempt failed; the head is up again in this tick.
-    Raising {
-        until: u64,
-    },
+    Raising { until: u64 },
 }
 
 /// A ball, as the robot's own body has it.
@@ -88,6 +84,7 @@ impl Grip {
         }
     }
 
+    /// Whether the ball is under the chin.
     pub fn holds(self) -> bool {
         matches!(self, Grip::Holding { .. })
     }

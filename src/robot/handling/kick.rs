@@ -9,9 +9,11 @@ use crate::robot::Kick;
 /// A kick in progress, in ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kicking {
+    /// The kick.
     pub kick: Kick,
     /// When the leg or the chest meets the ball.
     pub strikes: u64,
+    /// The tick at which it is over.
     pub until: u64,
 }
 

@@ -14,16 +14,21 @@ use crate::rng::{Dice, Seed};
 /// What a robot is doing to the ball.
 #[derive(Component, Clone, Debug)]
 pub struct Handling {
+    /// What the chin does.
     pub grip: Grip,
+    /// The kick that is under way.
     pub kicking: Option<Kicking>,
+    /// The dice of catches and kicks.
     pub dice: Dice,
 }
 
 impl Handling {
+    /// A robot that neither holds nor kicks.
     pub fn new(seed: Seed, robot: RobotId) -> Handling {
         Handling { grip: Grip::Open, kicking: None, dice: Dice::new(seed, "kick", Some(robot)) }
     }
 
+    /// Whether the ball is under the chin.
     pub fn holds(&self) -> bool {
         self.grip.holds()
     }

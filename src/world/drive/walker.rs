@@ -24,6 +24,7 @@ pub struct GaitError {
 }
 
 impl GaitError {
+    /// The error of a robot that has not stepped.
     pub fn new(seed: Seed, robot: RobotId) -> GaitError {
         GaitError { drawn: [0.0; 4], until: 0, dice: Dice::new(seed, "gait", Some(robot)) }
     }
@@ -52,9 +53,13 @@ impl GaitError {
 pub struct Trunk {
     /// Unit vector ahead.
     pub forward: Vec2,
+    /// m/s.
     pub linear: Vec2,
+    /// rad/s, counter-clockwise.
     pub angular: f32,
+    /// kg.
     pub mass: f32,
+    /// 1/(kg·m²).
     pub inverse_inertia: f32,
     /// From the centre to where the paws stand, m.
     pub lever: f32,

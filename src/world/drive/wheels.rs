@@ -19,9 +19,13 @@ pub struct Rigid {
     pub forward: Vec2,
     /// Centre of mass, m.
     pub centre: Vec2,
+    /// m/s.
     pub linear: Vec2,
+    /// rad/s, counter-clockwise.
     pub angular: f32,
+    /// kg.
     pub mass: f32,
+    /// 1/(kg·m²).
     pub inverse_inertia: f32,
 }
 

@@ -242,6 +242,7 @@ coded! {
 pub struct Flag(pub u8);
 
 impl Flag {
+    /// Whether it is not 0.
     pub const fn is_set(self) -> bool {
         self.0 != 0
     }

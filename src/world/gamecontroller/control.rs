@@ -30,15 +30,18 @@ pub const NO_TEAM: u8 = 255;
 #[brw(little, magic = b"RGme")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ControlPacket {
+    /// The version of the packet.
     pub version: Version,
     /// Counts the packets of a referee box and wraps.
     pub packet_number: u8,
+    /// Players that a team may have on the field.
     pub players_per_team: u8,
     /// Only in version 18; otherwise read as the round robin.
     #[br(if(version == Version::V18, CompetitionPhase::RoundRobin))]
     #[br(map = |number| CompetitionPhase::read(number, version))]
     #[bw(if(*version == Version::V18), map = |phase| phase.write(*version))]
     pub competition_phase: CompetitionPhase,
+    /// The competition.
     #[br(map = |number| CompetitionType::read(number, version))]
     #[bw(map = |kind| kind.write(*version))]
     pub competition_type: CompetitionType,
@@ -46,15 +49,19 @@ pub struct ControlPacket {
     #[br(if(version != Version::V18))]
     #[bw(if(*version != Version::V18))]
     pub stopped: Flag,
+    /// The phase of the game.
     #[br(map = |number| GamePhase::read(number, version))]
     #[bw(map = |phase| phase.write(*version))]
     pub game_phase: GamePhase,
+    /// The state of the game.
     #[br(map = |number| State::read(number, version))]
     #[bw(map = |state| state.write(*version))]
     pub state: State,
+    /// The set play that runs.
     #[br(map = |number| SetPlay::read(number, version))]
     #[bw(map = |set_play| set_play.write(*version))]
     pub set_play: SetPlay,
+    /// Whether it is the first half.
     pub first_half: Flag,
     /// The number of the team that has the kick-off or the set play. 255 stands for none.
     #[br(map = |number: u8| (number != NO_TEAM).then_some(number))]
@@ -75,15 +82,19 @@ pub struct ControlPacket {
 #[brw(little, import(version: Version))]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TeamInfo {
+    /// The league's number of the team.
     pub team_number: u8,
+    /// The colour of its field players.
     #[br(map = |number| Colour::read(number, version))]
     #[bw(map = |colour| colour.write(version))]
     pub field_player_colour: Colour,
+    /// The colour of its goalkeeper.
     #[br(map = |number| Colour::read(number, version))]
     #[bw(map = |colour| colour.write(version))]
     pub goalkeeper_colour: Colour,
     /// The goalkeeper's number, from 1. 0 stands for none.
     pub goalkeeper: u8,
+    /// Its goals.
     pub score: u8,
     /// Penalty shots so far. In version 18, outside a penalty shoot-out, other than 0 for a team in fallback mode.
     pub penalty_shot: u8,
@@ -101,6 +112,7 @@ pub struct TeamInfo {
 #[brw(little, import(version: Version))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlayerInfo {
+    /// Its penalty.
     #[br(map = |number| Penalty::read(number, version))]
     #[bw(map = |penalty| penalty.write(version))]
     pub penalty: Penalty,
@@ -117,10 +129,13 @@ pub struct PlayerInfo {
 /// Why bytes are not a control packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Error)]
 pub enum PacketError {
+    /// It does not begin as such packets do.
     #[error("not a control packet: it does not begin with \"RGme\" and a version")]
     NotOurs,
+    /// Its version is unknown.
     #[error("a control packet of version {0}, where 18 to 20 are understood")]
     Version(u8),
+    /// It has another length than its version has.
     #[error("a control packet of {got} bytes, where its version has {expected}")]
     Length { got: usize, expected: usize },
 }

@@ -22,6 +22,7 @@ pub struct Footprint {
 const TOUCH: f32 = 0.002;
 
 impl Footprint {
+    /// The circle that a ball covers.
     pub fn of_ball(kind: &BallKind) -> Footprint {
         Footprint { parts: vec![(Isometry::IDENTITY, SharedShape::ball(kind.radius))] }
     }

@@ -13,6 +13,7 @@ use crate::pitch::Pitch;
 /// The bodies and what is in their way.
 #[derive(SystemParam)]
 pub struct Room<'w, 's> {
+    /// Where the bodies are.
     pub bodies: Bodies<'w, 's>,
     colliders: Single<'w, 's, &'static RapierContextColliders>,
     pitch: Res<'w, Pitch>,

@@ -14,14 +14,14 @@ use crate::world::referee::phase::Phase;
 /// Why the referee puts the ball somewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlacementReason {
+    /// For a kick-off.
     KickOff,
+    /// The ball was stuck.
     NoProgress,
     /// For a set play that is not a kick-off.
     SetPlay,
     /// The ball was out, by the team that touched it last, if that is known.
-    ThrowIn {
-        against: Option<Team>,
-    },
+    ThrowIn { against: Option<Team> },
 }
 
 /// Why the referee takes a robot off the field.
@@ -35,6 +35,7 @@ pub enum RemovalReason {
     BallHolding,
     /// It pushed an opponent too long.
     Pushing,
+    /// It left the field by itself.
     LeftTheField,
     /// It was nearest to a ball that was stuck among robots, and goes to the half-way line.
     LocalStuck,
@@ -57,52 +58,30 @@ pub enum NoGoalReason {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Decision {
     /// A goal and the score that it makes, by [`Team::index`].
-    Goal {
-        by: Team,
-        score: [u32; 2],
-    },
+    Goal { by: Team, score: [u32; 2] },
     /// The ball is in the goal that this team attacks, and it does not count.
-    NoGoal {
-        by: Team,
-        reason: NoGoalReason,
-    },
+    NoGoal { by: Team, reason: NoGoalReason },
     /// Nobody has touched the ball for too long, and this team kicks off.
-    Untouched {
-        kick_off: Team,
-    },
+    Untouched { kick_off: Team },
     /// The ball lies still at this point.
-    BallPlaced {
-        at: Vec2,
-        reason: PlacementReason,
-    },
+    BallPlaced { at: Vec2, reason: PlacementReason },
     /// All robots on the field are put on their kick-off positions by hand, as people did in 2001.
     RobotsPlaced {
         /// Nobody at a dropped ball.
         kick_off: Option<Team>,
     },
     /// One robot is put somewhere by hand, at rest: before it walks to its place, or since it stood wrongly for a kick-off.
-    RobotPlaced {
-        robot: RobotId,
-        at: Pose,
-    },
+    RobotPlaced { robot: RobotId, at: Pose },
     /// The robot is off the field until it returns.
-    RobotRemoved {
-        robot: RobotId,
-        reason: RemovalReason,
-    },
+    RobotRemoved { robot: RobotId, reason: RemovalReason },
     /// The robot is back on the field, at rest.
-    RobotReturned {
-        robot: RobotId,
-        at: Pose,
-    },
+    RobotReturned { robot: RobotId, at: Pose },
+    /// Another phase begins.
     PhaseChanged(Phase),
-    HalfEnded {
-        half: u8,
-    },
+    /// A half is over.
+    HalfEnded { half: u8 },
     /// The last half is over, with this score by [`Team::index`].
-    MatchFinished {
-        score: [u32; 2],
-    },
+    MatchFinished { score: [u32; 2] },
 }
 
 impl fmt::Display for Decision {

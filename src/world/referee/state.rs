@@ -16,7 +16,9 @@ use crate::ids::{RobotId, Team};
 /// A robot that is off the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Removal {
+    /// The robot.
     pub robot: RobotId,
+    /// Why.
     pub reason: RemovalReason,
     /// Seconds of playing time until it may return. At 0 it waits for play to go on and for a free place.
     pub seconds_left: f64,
@@ -25,6 +27,7 @@ pub struct Removal {
 /// The state of a match between two looks of the referee.
 #[derive(Resource, Clone, Debug, PartialEq)]
 pub struct MatchState {
+    /// The phase of the game.
     pub phase: Phase,
     /// 1 or 2.
     pub half: u8,

@@ -11,7 +11,9 @@ use crate::world::referee::state::MatchState;
 /// What stays the same during a match.
 #[derive(Clone, Copy, Debug)]
 pub struct Laws<'a> {
+    /// The pitch.
     pub pitch: &'a Pitch,
+    /// The rule book.
     pub book: &'a RuleBook,
     /// In metres.
     pub ball_radius: f32,
@@ -20,6 +22,7 @@ pub struct Laws<'a> {
 /// What the referee sees at one moment, in the pitch frame and in metres.
 #[derive(Clone, Copy, Debug)]
 pub struct Observation<'a> {
+    /// Where the ball is, m.
     pub ball: Vec2,
     /// The robots on the field, sorted by id.
     pub robots: &'a [(RobotId, Vec2)],
