@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::files::{checked, file_named, read_addresses};
 use super::situation::Situation;
-use super::team::{TeamFile, TeamPlan};
+use super::team::{TeamFile, TeamPlan, give_roles, read_strategy};
 use crate::comms::radio::{FaultRule, Radio};
 use crate::comms::tcm::{Directory, HOST, TcmSettings};
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, no_such};
@@ -15,6 +15,7 @@ use crate::game::net::{WirePlan, team_numbers_fault};
 use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
+use crate::strategy::StrategyReading;
 use crate::world::referee::RuleBook;
 
 /// A match as it is written in `assets/matches/*.ron`.
@@ -91,6 +92,16 @@ const HOST_PORT: u16 = 98;
 pub const DEFAULT_RADIO: &str = "good";
 
 impl MatchPlan {
+    /// Reads a team's strategy from its files as they are now, just as it was read for the match, for robots that play what
+    /// it was before.
+    pub fn reread(&self, team: Team, assets: &AssetFolder) -> StrategyReading {
+        let team = self.team(team);
+        let at = |field: &str| Field::root().key(field);
+        read_strategy(assets, &team.names, &team.kind, &self.pitch, &self.ball)
+            .require(|strategy| strategy.can_follow(&team.strategy).map_err(|reason| (at("players"), reason)))
+            .require(|strategy| give_roles(strategy, &team.roles).map_err(|reason| (at("roles"), reason)))
+    }
+
     /// Reads everything that a match needs.
     ///
     /// # Errors

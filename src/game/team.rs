@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 use super::files::{checked, file_named};
 use super::line_up::LineUp;
-use super::plan::MatchPlan;
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source};
 use crate::ids::Team;
 use crate::pitch::{BallKind, Pitch};
@@ -90,20 +89,8 @@ impl TeamPlan {
     }
 }
 
-impl MatchPlan {
-    /// Reads a team's strategy from its files as they are now, just as it was read for the match, for robots that play what
-    /// it was before.
-    pub fn reread(&self, team: Team, assets: &AssetFolder) -> StrategyReading {
-        let team = self.team(team);
-        let at = |field: &str| Field::root().key(field);
-        read_strategy(assets, &team.names, &team.kind, &self.pitch, &self.ball)
-            .require(|strategy| strategy.can_follow(&team.strategy).map_err(|reason| (at("players"), reason)))
-            .require(|strategy| give_roles(strategy, &team.roles).map_err(|reason| (at("roles"), reason)))
-    }
-}
-
 /// Reads a team's strategy, which must be one for its robots and for the pitch.
-fn read_strategy(
+pub(super) fn read_strategy(
     assets: &AssetFolder,
     names: &TeamFile,
     kind: &RobotKind,
@@ -157,7 +144,7 @@ fn lines_up(strategy: &Strategy, line_up: &LineUp) -> Result<(), (Field, String)
     line_up.fault(&strategy.kick_off).map_or(Ok(()), Err)
 }
 
-fn give_roles(strategy: &mut Strategy, roles: &[(u8, String)]) -> Result<(), String> {
+pub(super) fn give_roles(strategy: &mut Strategy, roles: &[(u8, String)]) -> Result<(), String> {
     for (number, wanted) in roles {
         let role = strategy.roles.iter().position(|role| role.name == *wanted);
         let place = strategy.players.get_mut(usize::from(*number));

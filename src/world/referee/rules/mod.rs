@@ -22,8 +22,6 @@ mod touches;
 mod walking;
 
 #[cfg(test)]
-mod four_legged_table;
-#[cfg(test)]
 mod properties;
 #[cfg(test)]
 mod table;
@@ -31,7 +29,7 @@ mod table;
 mod walkthrough;
 
 #[cfg(test)]
-pub(super) use four_legged_table::{four_legged_book, read_book};
+pub(super) use table::{four_legged_book, read_book};
 
 pub use following::follow;
 use observation::placed_ball;

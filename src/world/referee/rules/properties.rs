@@ -3,9 +3,9 @@
 use bevy::prelude::Vec2;
 use proptest::prelude::*;
 
-use super::four_legged_table::{four_legged_book, four_legged_pitch};
 use super::referee;
 use super::table::{BALL_RADIUS, pitch};
+use super::table::{four_legged_book, four_legged_pitch};
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
 use crate::world::referee::decision::Decision;

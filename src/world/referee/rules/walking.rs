@@ -70,8 +70,8 @@ pub(super) fn is_kickers_place(laws: &Laws, state: &MatchState, robot: RobotId, 
 #[cfg(test)]
 mod tests {
     use crate::ids::Team;
-    use crate::world::referee::rules::four_legged_table::four_legged_line_up;
     use crate::world::referee::rules::table::Table;
+    use crate::world::referee::rules::table::four_legged_line_up;
 
     use super::*;
 

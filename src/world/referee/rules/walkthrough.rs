@@ -3,7 +3,7 @@
 use bevy::prelude::Vec2;
 
 use super::RULES;
-use super::four_legged_table::four_legged_line_up;
+use super::table::four_legged_line_up;
 use super::table::{KICK_OFF_SECONDS, Table};
 use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
