@@ -9,7 +9,6 @@ use serde::{Deserialize, Serialize};
 use super::files::{checked, file_named};
 use super::line_up::LineUp;
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source};
-use crate::ids::Team;
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::{Strategy, StrategyReading};

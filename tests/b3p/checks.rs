@@ -2,13 +2,13 @@
 
 use stateright::{Checker, Model, Property};
 
-use super::graph::Graph;
-use super::model::{Robot, State};
+use super::model::{Action, Robot, State};
 use super::team::Team;
+use crate::support::explorer::Explored;
 
 /// What the whole graph of a model says.
 pub struct Findings {
-    pub graph: Graph,
+    pub graph: Explored<Team>,
     pub nobody: Vec<bool>,
     pub one: Vec<bool>,
     pub several: Vec<bool>,
@@ -24,7 +24,7 @@ impl Findings {
 
     /// The same where the number is not worth telling.
     pub fn explored(team: Team) -> Findings {
-        let graph = Graph::of(team);
+        let graph = Explored::of(&team);
         let nobody = graph.marked(|state| state.going() == 0);
         let one = graph.marked(|state| state.going() == 1);
         let several = graph.marked(|state| state.going() > 1);
@@ -32,26 +32,32 @@ impl Findings {
         Findings { graph, nobody, one, several }
     }
 
+    fn lasts(&self, within: &[bool]) -> Option<usize> {
+        self.graph.lasts(within, ends_a_tick)
+    }
+
     /// How many ticks in a row may end with nobody going; `None` if for ever.
     pub fn nobody_goes_for(&self) -> Option<usize> {
-        self.graph.lasts(&self.nobody)
+        self.lasts(&self.nobody)
     }
 
     /// How many ticks in a row may end with several going; `None` if for ever.
     pub fn several_go_for(&self) -> Option<usize> {
-        self.graph.lasts(&self.several)
+        self.lasts(&self.several)
     }
 
     /// Whether somebody once goes and then, by no misfortune, nobody does, be it for a moment.
     pub fn lets_go(&self) -> bool {
-        let somebody: Vec<bool> = self.nobody.iter().map(|nobody| !nobody).collect();
-        self.graph.leads(&somebody, &self.nobody)
+        self.graph.leads(|from, to| {
+            let unlucky = self.graph.states[from].happened != self.graph.states[to].happened;
+            !self.nobody[from] && self.nobody[to] && !unlucky
+        })
     }
 
     /// How many ticks may end before exactly one goes for good; `None` if that is not certain.
     pub fn settles_after(&self) -> Option<usize> {
         let wrong: Vec<bool> = self.one.iter().map(|one| !one).collect();
-        self.graph.lasts(&self.graph.reaching(&wrong))
+        self.lasts(&self.graph.reaching(&wrong))
     }
 
     /// Where the ball lies in those rounds that may go on for ever and have nobody or several go again and again. A place
@@ -60,12 +66,12 @@ impl Findings {
         let wrong: Vec<bool> = self.one.iter().map(|one| !one).collect();
         let distances =
             |place: usize| self.graph.states[place].robots.iter().map(|robot| robot.distance).collect();
-        self.graph.recurring(&wrong).into_iter().map(distances).collect()
+        self.graph.recurring(&wrong, ends_a_tick).into_iter().map(distances).collect()
     }
 
     /// Whether no tick at all ends with exactly one robot going.
     pub fn is_never_right(&self) -> bool {
-        self.graph.lasts(&self.one) == Some(0)
+        self.lasts(&self.one) == Some(0)
     }
 
     /// How many ticks in a row may end with a robot going although another is nearer by the threshold; `None` if for ever.
@@ -78,8 +84,12 @@ impl Findings {
             state.robots.iter().any(|robot| robot.goes() && farther(robot))
         });
         assert!(wrong.contains(&true), "sometimes the wrong robot goes");
-        self.graph.lasts(&wrong)
+        self.lasts(&wrong)
     }
+}
+
+fn ends_a_tick(action: &Action) -> bool {
+    *action == Action::Tick
 }
 
 pub fn properties() -> Vec<Property<Team>> {

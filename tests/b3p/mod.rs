@@ -3,7 +3,6 @@
 
 mod ball;
 mod checks;
-mod graph;
 mod model;
 mod paper;
 mod settling;

@@ -268,3 +268,8 @@ fn committed_wrongly(fact: Fact, before: &State, after: &State) -> bool {
     let initiator = before.robot(committed.initiator);
     initiator.machine.configuration() != Some(greatest)
 }
+
+/// Whether a robot is locked or initiating.
+pub fn somebody_is_busy(state: &State) -> bool {
+    !state.live().all(|robot| robot.is_free())
+}

@@ -2,10 +2,10 @@
 //! messages get through, all live robots have one configuration, different roles and no locks.
 
 use super::checks::{Check, Fact, agree};
-use super::graph::Graph;
 use super::network::Radio;
 use super::story::Story;
 use super::team::{Afterwards, Asked, Crashes, FLOATER, HALFBACK, Team, Wanted};
+use crate::support::explorer::Explored;
 
 const CONVERGES: [Check; 5] = [
     Check::Permutations,
@@ -57,7 +57,7 @@ fn a_lease_that_is_early_doubles_a_role_for_a_while() {
 
 #[test]
 fn an_agreed_team_can_always_be_reached() {
-    let graph = Graph::of(&Team::hardened(1).any_timers());
+    let graph = Explored::of(&Team::hardened(1).any_timers());
     assert_eq!(graph.states.len(), 682);
     assert!(graph.stuck(agree).is_empty());
 }

@@ -3,7 +3,6 @@
 
 mod ablations;
 mod checks;
-mod graph;
 mod hardened;
 mod model;
 mod network;

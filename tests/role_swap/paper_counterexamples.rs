@@ -2,11 +2,11 @@
 
 use touchline::protocol::role_swap::{OnMissingAck, PaperRules, Unlock, WhileInitiating};
 
-use super::checks::{Check, Fact};
-use super::graph::{Graph, somebody_is_busy};
+use super::checks::{Check, Fact, somebody_is_busy};
 use super::network::{Loss, Radio};
 use super::story::Story;
 use super::team::{Afterwards, Crashes, FLOATER, FORWARD, HALFBACK, Team, Timing, Version};
+use crate::support::explorer::Explored;
 
 const ROLL_BACK: OnMissingAck = OnMissingAck::RollBack;
 
@@ -64,7 +64,7 @@ fn each_repetition_bears_one_loss_more_and_never_all() {
 #[test]
 fn sending_again_for_ever_keeps_the_initiator_busy_for_ever() {
     let team = Team::paper(OnMissingAck::Resend { tries: None }, Unlock::AtTimeout).any_timers();
-    let graph = Graph::of(&team);
+    let graph = Explored::of(&team);
     let stuck = graph.stuck(|state| !somebody_is_busy(state));
     let story = Story::told(&graph.path_to(stuck[0]));
     assert_eq!(story.len(), 6);

@@ -3,10 +3,10 @@
 
 use touchline::protocol::role_swap::{OnMissingAck, Unlock};
 
-use super::checks::{Check, Fact};
-use super::graph::{Graph, somebody_is_busy};
+use super::checks::{Check, Fact, somebody_is_busy};
 use super::network::Radio;
 use super::team::{Afterwards, Crashes, Team};
+use crate::support::explorer::Explored;
 
 const GUARANTEED: [Check; 9] = [
     Check::FreeDiffer,
@@ -70,7 +70,7 @@ fn to_go_on_for_ever_is_safe_only_while_no_timer_is_early_and_nobody_crashes() {
 fn locks_are_released_in_the_end() {
     for (rule, states) in [(ROLL_BACK, 2015), (ROLL_BACK_TWICE, 19203), (RESEND, 2535)] {
         let team = attempts(1, Team::paper(rule, Unlock::AtTimeout)).any_timers();
-        let graph = Graph::of(&Team { radio: Radio::LOSSY, ..team });
+        let graph = Explored::of(&Team { radio: Radio::LOSSY, ..team });
         assert!(graph.stuck(|state| !somebody_is_busy(state)).is_empty());
         assert_eq!(graph.states.len(), states);
     }
@@ -79,7 +79,7 @@ fn locks_are_released_in_the_end() {
 #[test]
 fn locks_are_released_in_the_end_although_a_robot_crashed() {
     let crashes = Crashes::any(1, Afterwards::StaysDown);
-    let graph = Graph::of(&Team { crashes, ..attempts(1, Team::paper(ROLL_BACK, Unlock::AtTimeout)) });
+    let graph = Explored::of(&Team { crashes, ..attempts(1, Team::paper(ROLL_BACK, Unlock::AtTimeout)) });
     assert!(graph.stuck(|state| !somebody_is_busy(state)).is_empty());
     assert_eq!(graph.states.len(), 541);
 }

@@ -1,5 +1,7 @@
 //! The match harness that all tests share.
 
+pub mod explorer;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
