@@ -70,19 +70,25 @@ impl Observers {
 mod tests {
     use super::*;
     use crate::ids::Team;
+    use crate::mind::world_model::BallBelief;
 
     #[test]
     fn a_ball_that_was_forgotten_grows_older_and_only_one_never_seen_has_no_age() {
         let id = RobotId::new(Team::Home, 1);
-        let model = WorldModel::default();
+        let mut world = World::new();
+        let robot = world.spawn((id, WorldModel::default())).id();
         let mut observers = Observers::default();
         let age = |observers: &Observers, tick: u64| {
             let clock = Clock { tick, ..Clock::new(60.0) };
-            observers.status(id, 6, &model, &clock).ball.map(|ball| ball.age)
+            observers.status(id, 6, &WorldModel::default(), &clock).ball.map(|ball| ball.age)
         };
         assert_eq!(age(&observers, 60), None);
-        observers.0.insert(id, (Vec2::X, 60));
-        assert_eq!(age(&observers, 90), Some(0.5));
+        let seen = BallBelief { position: Vec2::X, velocity: Vec2::ZERO, seen: 60 };
+        for belief in [Some(seen), None] {
+            world.get_mut::<WorldModel>(robot).expect("the robot has beliefs").ball = belief;
+            observers.look(&mut world);
+            assert_eq!(age(&observers, 90), Some(0.5));
+        }
         assert!(age(&observers, 6_060).is_some_and(|age| (age - 100.0).abs() < 0.01));
     }
 }
