@@ -82,3 +82,14 @@ fn over_sockets_the_box_hears_what_the_robots_hear() {
     let to_mates = figures(&game).sent as usize;
     assert!((said..=3 * said).contains(&to_mates), "{said} messages are {to_mates} datagrams");
 }
+
+#[test]
+fn messages_are_cut_into_datagrams_that_the_league_allows() {
+    for (version, longest) in Version::ALL.into_iter().zip([128, 512, 512]) {
+        let wires =
+            WirePlan { league_ports: Some(Ipv4Addr::LOCALHOST.into()), version, ..WirePlan::default() };
+        let choice = Choice { wires: Box::new(wires), ..Choice::default() };
+        let plan = MatchPlan::read(&assets(), &choice).expect("the shipped files are sound");
+        assert_eq!(plan.tcm.datagram, longest, "{version:?}");
+    }
+}
