@@ -7,7 +7,7 @@ use bevy_rapier2d::parry::shape::SharedShape;
 use bevy_rapier2d::rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use bevy_rapier2d::rapier::geometry::{Collider, ColliderSet};
 
-use super::wall_boxes;
+use super::walls::wall_boxes;
 use crate::geometry::{Pose, unit};
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, TrailerKind, jaws};
