@@ -43,7 +43,7 @@ impl Condition {
     }
 }
 
-/// What can befall a robot.
+/// How a robot can fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Ailment {
     /// It neither moves nor thinks nor talks.

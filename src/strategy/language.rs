@@ -38,48 +38,27 @@ pub enum Point {
     /// The team mate in a role, as far as it is known who that is.
     Teammate(RoleRef),
     /// `behind` metres behind the carrier and `aside` metres off its way to their goal, on the side where the robot is.
-    SupportSpot {
-        behind: f32,
-        aside: f32,
-    },
+    SupportSpot { behind: f32, aside: f32 },
     /// A point on the half of the field that the goalie did not last leave or enter its area by; `y` is how far from the middle.
-    AwayFromGoalie {
-        x: f32,
-        y: f32,
-    },
+    AwayFromGoalie { x: f32, y: f32 },
+    /// This place.
     At(Vec2),
     /// The member of a set that is nearest to the robot.
     Closest(Box<Points>),
     /// The mean of a set.
     Average(Box<Points>),
+    /// Halfway between two points.
     Midpoint(Box<Point>, Box<Point>),
     /// A point moved by the way from one point to another.
-    Moved {
-        of: Box<Point>,
-        from: Box<Point>,
-        to: Box<Point>,
-    },
+    Moved { of: Box<Point>, from: Box<Point>, to: Box<Point> },
     /// `distance` metres from one point on the way to another; negative distances lead away from it.
-    Toward {
-        from: Box<Point>,
-        to: Box<Point>,
-        distance: f32,
-    },
+    Toward { from: Box<Point>, to: Box<Point>, distance: f32 },
     /// `offset` metres behind a point, as seen from another: where to stand to push it there.
-    SweetSpot {
-        of: Box<Point>,
-        toward: Box<Point>,
-        offset: f32,
-    },
+    SweetSpot { of: Box<Point>, toward: Box<Point>, offset: f32 },
     /// Where a robot of this speed (m/s) meets the rolling ball.
-    Intercept {
-        max_speed: f32,
-    },
+    Intercept { max_speed: f32 },
     /// The place in a zone that is nearest to a point.
-    Into {
-        zone: ZoneName,
-        point: Box<Point>,
-    },
+    Into { zone: ZoneName, point: Box<Point> },
 }
 
 /// Any number of places.
@@ -88,7 +67,9 @@ pub enum Point {
 pub enum Points {
     /// A set from `point_sets`.
     Named(String),
+    /// All team mates that the robot knows of.
     Teammates,
+    /// All opponents that the robot knows of.
     Opponents,
     /// The team mates that rank above the robot.
     Superiors,
@@ -100,23 +81,14 @@ pub enum Points {
     Walls,
     /// Exactly these.
     These(Vec<Point>),
+    /// The members of all these sets.
     Union(Vec<Points>),
     /// Those within `radius` of the robot.
-    Within {
-        of: Box<Points>,
-        radius: f32,
-    },
+    Within { of: Box<Points>, radius: f32 },
     /// Those within `radius` of the robot; the nearest one, where there are none.
-    WithinOrClosest {
-        of: Box<Points>,
-        radius: f32,
-    },
+    WithinOrClosest { of: Box<Points>, radius: f32 },
     /// Those farther than `radius` from a point.
-    FartherThan {
-        of: Box<Points>,
-        from: Box<Point>,
-        radius: f32,
-    },
+    FartherThan { of: Box<Points>, from: Box<Point>, radius: f32 },
     /// Also those of the last `seconds`; a new one within `merge` metres replaces an old one, of which the share
     /// `blend` is kept.
     Remember {
@@ -128,10 +100,7 @@ pub enum Points {
         slot: usize,
     },
     /// All of them, moved by a vector.
-    Shifted {
-        of: Box<Points>,
-        by: Vec2,
-    },
+    Shifted { of: Box<Points>, by: Vec2 },
 }
 
 /// A zone that every robot knows, or one of the file.
@@ -142,7 +111,9 @@ pub enum ZoneName {
     Named(String),
     /// The zone of control of the robot's role (figure 2).
     DangerZone,
+    /// The area in front of the team's own goal.
     PenaltyArea,
+    /// This rectangle.
     Exactly(Zone),
 }
 
@@ -152,20 +123,20 @@ pub enum ZoneName {
 pub enum Feature {
     /// A statement from `features`.
     Is(String),
+    /// True.
     Always,
+    /// It is false.
     Not(Box<Feature>),
+    /// All of them are true.
     All(Vec<Feature>),
+    /// One of them is true at least.
     Any(Vec<Feature>),
     /// The place of something is known.
     Known(Point),
     /// The camera has shown the ball within this many seconds.
     BallSeenWithin(f32),
     /// Two points are known and nearer than `radius`.
-    Near {
-        a: Point,
-        b: Point,
-        radius: f32,
-    },
+    Near { a: Point, b: Point, radius: f32 },
     /// As `Near`, but once true it stays true up to the radius `leave`.
     NearLatch {
         a: Point,
@@ -176,30 +147,15 @@ pub enum Feature {
         slot: usize,
     },
     /// `a` is nearer to the robot than `b`.
-    NearerThan {
-        a: Point,
-        b: Point,
-    },
+    NearerThan { a: Point, b: Point },
     /// A point is known and lies in a zone.
-    In {
-        zone: ZoneName,
-        point: Point,
-    },
+    In { zone: ZoneName, point: Point },
     /// A point is known and within this many degrees of straight ahead.
-    Facing {
-        point: Point,
-        within: f32,
-    },
+    Facing { point: Point, within: f32 },
     /// Robot, ball and target are in line within this many degrees, with the robot behind.
-    BehindBall {
-        toward: Point,
-        within: f32,
-    },
+    BehindBall { toward: Point, within: f32 },
     /// The ball lies in front of the robot's body: `gap` metres between them at most, `aside` metres off the middle at most.
-    BallInScoop {
-        gap: f32,
-        aside: f32,
-    },
+    BallInScoop { gap: f32, aside: f32 },
     /// A mechanism of teamwork is on.
     On(Mechanism),
     /// The robot has this role itself, whatever sub-role it acts in.

@@ -24,7 +24,7 @@ const REACH: f32 = 10.0;
 
 impl Room<'_, '_> {
     /// Puts bodies that belong together down, at rest: where they are wanted or, if something is there, as near to it as there
-    /// is room; if there is none, where they were. What is `lifted` is in nobody's way. Returns the pose.
+    /// is room; if there is none, where they were. Bodies that are `lifted` are in no one's way. Returns the pose.
     pub fn put_down(
         &mut self,
         moved: &[RapierRigidBodyHandle],

@@ -1,7 +1,7 @@
 //! Holding the ball, by the rules of the four-legged league.
 //!
 //! A field player may hold it for some seconds and carry it some way; so may a goalkeeper outside of its own penalty
-//! area, while inside only a longer time counts. Who lets the ball go for a shorter time than it has held it goes on
+//! area, while inside only a longer time counts. A robot that lets the ball go for a shorter time than it has held it goes on
 //! holding it.
 
 use crate::ids::RobotId;

@@ -116,7 +116,7 @@ mod tests {
     const HOME_1: RobotId = RobotId::new(Team::Home, 1);
     const AWAY_1: RobotId = RobotId::new(Team::Away, 1);
 
-    /// Where the ball comes back that rolls from one point to another, and against whom.
+    /// Where a ball that rolls from one point to another comes back, and against which team.
     fn thrown_in(table: &mut Table, by: Option<RobotId>, from: Vec2, to: Vec2) -> (Vec2, Option<Team>) {
         table.log.clear();
         table.ball = from;
