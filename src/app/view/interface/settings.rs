@@ -36,13 +36,11 @@ struct WindowSettings {
 }
 
 impl WindowSettings {
-    fn of(remembered: &RememberedPanels, sizes: PanelSizes) -> WindowSettings {
+    fn of(remembered: &RememberedPanels, mut sizes: PanelSizes) -> WindowSettings {
         // Whole points, so that a panel that settles is no change.
-        let sizes = PanelSizes {
-            inspector: sizes.inspector.round(),
-            radio: sizes.radio.round(),
-            communication: sizes.communication.round(),
-        };
+        for (_, size) in sizes.each() {
+            *size = size.round();
+        }
         WindowSettings { watching: remembered.watching, playing: remembered.playing, sizes }
     }
 
@@ -52,11 +50,10 @@ impl WindowSettings {
             return Ok(None);
         }
         let source = Source::read(path)?;
-        let settings: WindowSettings = source.parse()?;
-        let PanelSizes { inspector, radio, communication } = settings.sizes;
+        let mut settings: WindowSettings = source.parse()?;
         let sizes = Field::default().key("sizes");
-        for (name, size) in [("inspector", inspector), ("radio", radio), ("communication", communication)] {
-            source.within(&sizes.key(name), size, Bound::POINTS)?;
+        for (name, size) in settings.sizes.each() {
+            source.within(&sizes.key(name), *size, Bound::POINTS)?;
         }
         Ok(Some(settings))
     }

@@ -23,8 +23,6 @@ pub mod height {
     /// Robots are at this height and up to 2 above it.
     pub const ROBOTS: f32 = 4.0;
     pub const BALL: f32 = 8.0;
-    /// For whatever is drawn over everything.
-    pub const OVERLAYS: f32 = 9.0;
 }
 
 /// On the entities of the view that go with a match.

@@ -112,6 +112,12 @@ pub struct PanelSizes {
 }
 
 impl PanelSizes {
+    /// Each with its name in the file of settings.
+    pub fn each(&mut self) -> [(&'static str, &mut f32); 3] {
+        let PanelSizes { inspector, radio, communication } = self;
+        [("inspector", inspector), ("radio", radio), ("communication", communication)]
+    }
+
     /// The height of a panel below the pitch.
     pub fn below(&mut self, panel: Overlay) -> &mut f32 {
         if panel == Overlay::Communication { &mut self.communication } else { &mut self.radio }
