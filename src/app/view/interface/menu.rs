@@ -230,8 +230,10 @@ fn paint_pitch(painter: &egui::Painter, area: egui::Rect) {
         painter.rect_filled(rect, 0.0, paint(colours::STRIPE));
     }
     let chalk = egui::Stroke::new(4.0, paint(colours::CARPET).lerp_to_gamma(paint(colours::CHALK), 0.3));
-    painter.circle_stroke(egui::pos2(area.center().x, area.bottom() - 24.0), area.height() * 0.16, chalk);
-    painter.rect_stroke(area.shrink(24.0), 0.0, chalk, egui::StrokeKind::Inside);
+    // Not through the title.
+    let inset = if area.height() < ROOMY { 6.0 } else { 24.0 };
+    painter.circle_stroke(egui::pos2(area.center().x, area.bottom() - inset), area.height() * 0.16, chalk);
+    painter.rect_stroke(area.shrink(inset), 0.0, chalk, egui::StrokeKind::Inside);
 }
 
 #[cfg(test)]
