@@ -16,21 +16,22 @@ import time
 HEADER = struct.Struct("<3sB4s4sIIHHHH")
 MODULES = ["world model", "claims", "goalie", "role swap", "policy", "ball booking", "ChaosManager", "remote robots"]
 TEAMS = ["home", "away"]
+VERSION = 2
 PIECE, LONGEST, UNFINISHED, PATIENCE = 1400 - HEADER.size, 1 << 20, 64, 1.0  # bytes, bytes, messages, s
 
 
 def names(address):
-    """An address's entity and module as people write them."""
+    """An address's peer and module as people write them."""
     kind, team, number, module = address
     if kind > 3 or (kind in (1, 3) and team) or (kind in (2, 3) and number):
         raise ValueError("nobody's address")
     side = TEAMS[team] if team < 2 else f"team {team}"
-    entity = [f"{side} {number}", f"computer {number}", side, "everybody"][kind]
-    return entity, MODULES[module] if module < len(MODULES) else f"module {module}"
+    peer = [f"{side} {number}", f"computer {number}", side, "everybody"][kind]
+    return peer, MODULES[module] if module < len(MODULES) else f"module {module}"
 
 
-def entity(name):
-    """The three bytes of an entity."""
+def peer(name):
+    """The three bytes of a peer."""
     word, *numbers = re.sub("^home", "team 0", re.sub("^away", "team 1", name.lower())).replace(":", " ").split()
     numbers = tuple(map(int, numbers))
     kinds = {("team", 2): (0, *numbers), ("computer", 1): (1, 0, *numbers), ("team", 1): (2, *numbers, 0)}
@@ -41,13 +42,13 @@ def cut(source, destination, counter, data_type, data):
     pieces = [data[at : at + PIECE] for at in range(0, len(data), PIECE)] or [b""]
     for index, piece in enumerate(pieces):
         about = (counter, len(data), data_type, index, len(pieces), len(piece))
-        yield HEADER.pack(b"TCM", 1, source, destination, *about) + piece
+        yield HEADER.pack(b"TCM", VERSION, source, destination, *about) + piece
 
 
 def read(datagram):
     """The source, the counter, what all fragments of the message have in common, the index and the piece."""
     head, piece = datagram[: HEADER.size], datagram[HEADER.size :]
-    if len(head) < HEADER.size or head[:4] != b"TCM\1":
+    if len(head) < HEADER.size or head[:4] != bytes([*b"TCM", VERSION]):
         raise ValueError("not of the TCM, or of another version")
     _, _, source, destination, counter, total, data_type, index, count, length = HEADER.unpack(head)
     addresses = names(source) and names(destination) and source[0] < 2
@@ -121,12 +122,14 @@ TYPES = {
     1: ("position", {**HEAD, "position": VEC2, "heading": VEC2, "configuration": (None, CONFIGURATION)}),
     2: ("have-ball", {**HEAD, "have_ball": (False, True), "role": U8}),
     3: ("goalie", {**HEAD, "behaviour": ("leaving", "entering"), "side": ("left", "centre", "right")}),
-    4: ("role swap", ({"LOCK": U32}, {"ACKLOCK": U32, "holds": (U8, CONFIGURATION)},
-                      {"SWAP": U32, "order": (U8, [U8])}, {"ACKSWAP": U32})),
     5: ("values", {**HEAD, "values": [F32], "wish": (None, U8)}),
     6: ("book", {"distance": U32, "term": U32, "key": U32}),
     7: ("ball report", {"time": U32, "position": VEC2, "age": F32}),
     8: ("text", lambda data: take(data, u32(data)).decode()),
+    9: ("LOCK", {"sequence": U32}),
+    10: ("ACKLOCK", {"sequence": U32, "holds": (U8, CONFIGURATION)}),
+    11: ("SWAP", {"sequence": U32, "order": (U8, [U8])}),
+    12: ("ACKSWAP", {"sequence": U32}),
 }
 
 
@@ -155,13 +158,13 @@ def listen(conn):
 
 def self_test():
     """The examples of docs/tcm.md."""
-    text = bytes.fromhex("54434D01 01000006 00010206 07000000 06000000 0800 0000 0100 0600 0568656C6C6F")
-    head = "54434D01 00000300 02000000 02010000 14000000 0100"
+    text = bytes.fromhex("54434D02 01000006 00010206 07000000 06000000 0800 0000 0100 0600 0568656C6C6F")
+    head = "54434D02 00000300 02000000 02010000 14000000 0100"
     first = bytes.fromhex(head + "0000 0200 1000 DC0B 03 0000C03F 000080BE 0000803F 00")
     second = bytes.fromhex(head + "0100 0200 0400 000000 00")
     position = dict(time=1500, robot=3, position=dict(x=1.5, y=-0.25), heading=dict(x=1.0, y=0.0), configuration=None)
     assembly = Assembly()
-    assert [text] == list(cut(entity("computer 0") + b"\6", entity("away 2") + b"\6", 7, 8, b"\5hello"))
+    assert [text] == list(cut(peer("computer 0") + b"\6", peer("away 2") + b"\6", 7, 8, b"\5hello"))
     assert decode(*assembly.accept(text)[2:]) == ("text", "hello") and assembly.accept(second) is None
     source, to, *data = assembly.accept(first)
     assert (names(source)[0], names(to)[0], decode(*data)) == ("home 3", "home", ("position", position))
@@ -175,8 +178,8 @@ def main():
     parser.add_argument("--self-test", action="store_true", help="decode the examples of docs/tcm.md")
     parser.add_argument("--bind", metavar="HOST:PORT", default="127.0.0.1:7499", help="where to listen")
     parser.add_argument("--to", metavar="HOST:PORT", default="127.0.0.1:7400", help="where to send")
-    parser.add_argument("--as", dest="source", metavar="WHO", type=entity, default="computer 0")
-    parser.add_argument("--for", dest="to_whom", metavar="WHO", type=entity, default="everybody")
+    parser.add_argument("--as", dest="source", metavar="WHO", type=peer, default="computer 0")
+    parser.add_argument("--for", dest="to_whom", metavar="WHO", type=peer, default="everybody")
     parser.add_argument("--text", default="hello")
     options = parser.parse_args()
     conn = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

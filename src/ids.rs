@@ -83,8 +83,10 @@ impl std::str::FromStr for RobotId {
         } else {
             return Err(expected());
         };
-        let number = rest.trim_start_matches([' ', ':', '-']).parse().map_err(|_| expected())?;
-        Ok(RobotId { team, number })
+        let digits = rest.trim_start_matches([' ', ':', '-']);
+        // `parse` alone would take a plus sign.
+        let number = digits.bytes().all(|byte| byte.is_ascii_digit()).then(|| digits.parse().ok());
+        Ok(RobotId { team, number: number.flatten().ok_or_else(expected)? })
     }
 }
 
@@ -123,6 +125,8 @@ mod tests {
         for text in ["away:3", "away 3", "Away3"] {
             assert_eq!(text.parse(), Ok(RobotId::new(Team::Away, 3)));
         }
-        assert!("guest 1".parse::<RobotId>().unwrap_err().contains("away:3"));
+        for text in ["guest 1", "home", "home +1", "home 256"] {
+            assert!(text.parse::<RobotId>().unwrap_err().contains("away:3"), "{text}");
+        }
     }
 }

@@ -10,12 +10,11 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use touchline::comms::messages::Text;
-use touchline::comms::radio::Traffic;
-use touchline::comms::tcm::external_message::Entity as Party;
+use touchline::comms::messages::Message;
+use touchline::comms::radio::RadioRecord;
 use touchline::comms::tcm::fragments::{Assembly, Limits, USUAL_DATAGRAM, cut};
 use touchline::comms::tcm::udp::UdpError;
-use touchline::comms::tcm::{Address, Data, DataType, Directory, ExternalMessage, HOST, Module, Tcm, party};
+use touchline::comms::tcm::{Data, DataType, Directory, ExternalMessage, HOST, Module, Peer, Tcm};
 use touchline::game::net::{self, CarrierFigures, Greeting, UdpCarrier, WireError, WirePlan};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
@@ -66,7 +65,7 @@ fn free_addresses(count: usize) -> Vec<SocketAddr> {
 
 /// Addresses for the robots of a match, for a computer that listens, and for the match itself.
 fn free_directory(plan: &MatchPlan) -> Directory {
-    let everybody: Vec<Party> = plan.robots().map(party).chain([Party::Computer(0), HOST]).collect();
+    let everybody: Vec<Peer> = plan.robots().map(Peer::from).chain([Peer::Computer(0), HOST]).collect();
     let addresses = free_addresses(everybody.len());
     everybody.into_iter().zip(addresses).collect()
 }
@@ -99,7 +98,7 @@ fn by_udp(plan: MatchPlan) -> MatchPlan {
 }
 
 fn address_of(plan: &MatchPlan, robot: RobotId) -> SocketAddr {
-    plan.directory().address_of(party(robot)).expect("the robot has an address")
+    plan.directory().address_of(Peer::from(robot)).expect("the robot has an address")
 }
 
 fn figures(game: &Match) -> CarrierFigures {
@@ -112,11 +111,8 @@ fn stranger() -> UdpSocket {
 }
 
 /// A datagram with a whole message.
-fn datagram<T: Data>(from: Party, to: Party, counter: u32, data: &T) -> Vec<u8> {
-    let address = |entity| Address { entity, module: T::MODULE };
-    let (source, destination) = (address(from), address(to));
-    let message = ExternalMessage { source, destination, data_type: T::TYPE, data: data.serialise() };
-    cut(&message, counter, USUAL_DATAGRAM).expect("it can be sent").remove(0)
+fn datagram<T: Data>(from: Peer, to: Peer, counter: u32, data: &T) -> Vec<u8> {
+    cut(&ExternalMessage::of(data, from, to), counter, USUAL_DATAGRAM).expect("it can be sent").remove(0)
 }
 
 #[test]
@@ -135,7 +131,7 @@ fn a_match_over_sockets_is_the_very_match_over_a_radio_that_loses_nothing() {
         assert!(figures.sent > 500, "{file}: {figures:?}");
         let all_arrived = CarrierFigures { sent: figures.sent, received: figures.sent, ..Default::default() };
         assert_eq!(figures, all_arrived, "{file}");
-        let traffic = game.world().resource::<Traffic>().total();
+        let traffic = game.world().resource::<RadioRecord>().total();
         assert_eq!((traffic.sent, traffic.lost_in_all()), (figures.sent, 0), "{file}");
     }
 }
@@ -145,12 +141,12 @@ fn what_is_not_ours_is_counted_and_changes_nothing() {
     let by_radio = talkative(0.1);
     let (mut game, plan) = open(&by_udp(by_radio.clone()));
     let (stranger, to) = (stranger(), address_of(&plan, HOME_0));
-    let text = Text("hello".into());
+    let text = Message::Text("hello".into());
     let mut times = 0;
     while !game.is_over() {
         if game.clock().tick.is_multiple_of(100) {
-            let forged = datagram(party(HOME_1), Party::Team(0), times, &text);
-            let told = datagram(Party::Computer(0), party(HOME_0), times, &text);
+            let forged = datagram(Peer::from(HOME_1), Peer::Team(0), times, &text);
+            let told = datagram(Peer::Computer(0), Peer::from(HOME_0), times, &text);
             for bytes in [&b"RGme"[..], b"", &[7; 2000], &forged, &told] {
                 stranger.send_to(bytes, to).expect("it is sent");
             }
@@ -177,7 +173,7 @@ fn what_is_not_ours_is_counted_and_changes_nothing() {
 #[test]
 fn a_computer_in_the_addresses_hears_what_robots_tell_their_teams() {
     let (mut game, plan) = open(&by_udp(talkative(0.1)));
-    let at = plan.directory().address_of(Party::Computer(0)).expect("it is in the addresses");
+    let at = plan.directory().address_of(Peer::Computer(0)).expect("it is in the addresses");
     let computer = UdpSocket::bind(at).expect("the address was free");
     computer.set_nonblocking(true).expect("sockets can do that");
     let mut assembly = Assembly::new(Limits::default());
@@ -187,8 +183,8 @@ fn a_computer_in_the_addresses_hears_what_robots_tell_their_teams() {
         while let Ok(length) = computer.recv(&mut bytes) {
             let message = assembly.accept(game.clock().tick, &bytes[..length]).expect("it is of the TCM");
             let message = message.expect("team messages are short");
-            let Party::Robot { team, .. } = message.source.entity else { panic!("{message:?}") };
-            assert_eq!(message.destination.entity, Party::Team(team));
+            let Peer::Robot { team, .. } = message.source.peer else { panic!("{message:?}") };
+            assert_eq!(message.destination.peer, Peer::Team(team));
             heard += 1;
         }
     }
@@ -208,16 +204,16 @@ fn a_computer_in_the_addresses_hears_what_robots_tell_their_teams() {
 fn an_address_that_is_taken_or_missing_is_named_and_no_socket_stays_open() {
     let plan = by_udp(talkative(0.1));
     let everybody = free_directory(&plan);
-    let first = everybody.address_of(party(HOME_0)).expect("it is there");
+    let first = everybody.address_of(Peer::from(HOME_0)).expect("it is there");
     let taken = stranger();
     let taken_at = taken.local_addr().expect("it is bound");
-    let changed = |change: &dyn Fn(Party, SocketAddr) -> Option<SocketAddr>| {
+    let changed = |change: &dyn Fn(Peer, SocketAddr) -> Option<SocketAddr>| {
         let entries = everybody.entries();
-        let entries = entries.filter_map(|(party, address)| Some((party, change(party, address)?)));
+        let entries = entries.filter_map(|(peer, address)| Some((peer, change(peer, address)?)));
         MatchPlan { addresses: Some(entries.collect()), ..plan.clone() }
     };
-    let moved = changed(&|who, at| Some(if who == party(HOME_1) { taken_at } else { at }));
-    let missing = changed(&|who, at| (who != party(HOME_1)).then_some(at));
+    let moved = changed(&|who, at| Some(if who == Peer::from(HOME_1) { taken_at } else { at }));
+    let missing = changed(&|who, at| (who != Peer::from(HOME_1)).then_some(at));
     for (plan, expected) in [
         (moved, format!("cannot listen at {taken_at}: the port is taken")),
         (missing, "home 1 has no address: add it to the addresses".to_owned()),

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use touchline::comms::messages::MessageKind;
-use touchline::comms::radio::MessageCounts;
+use touchline::comms::radio::RadioRecord;
+use touchline::comms::tcm::DataType;
 use touchline::data::{AssetKind, ron_options};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
@@ -63,8 +63,7 @@ fn every_policy_swaps_roles_in_a_match_and_leaves_each_to_one_robot() {
                 ticks += 1;
                 last = now;
             }
-            let counts = game.world().resource::<MessageCounts>();
-            locks += counts.sent(MessageKind::Lock, None, None);
+            locks += game.world().resource::<RadioRecord>().of_kind(DataType::LOCK, None, None).sent;
         }
         println!("{policy}: {locks} LOCKs, {changes} changes, {shared} of {ticks} ticks with a shared role");
         assert!(locks > 0 && changes > 0, "{policy}: {locks} LOCKs, {changes} changes of roles");

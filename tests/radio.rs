@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use bevy::prelude::*;
-use touchline::comms::radio::{Envelope, Loss, Outcome, Payload, RadioLog, Traffic};
+use touchline::comms::radio::{InFlight, Loss, RadioRecord, TransmissionState};
 use touchline::game::record::Record;
 use touchline::game::requests::{Request, Requests, Treatment};
 use touchline::game::{Choice, Match, MatchPlan};
@@ -47,31 +47,31 @@ fn watch(game: &mut Match) -> Links {
     while !game.is_over() {
         game.tick();
         let world = game.world_mut();
-        let mut flying = world.query::<(Entity, &Envelope, &Payload)>();
-        let now: BTreeMap<Entity, Envelope> =
-            flying.iter(world).map(|(entity, envelope, _)| (entity, *envelope)).collect();
+        let mut flying = world.query::<(Entity, &InFlight)>();
+        let now: BTreeMap<Entity, InFlight> =
+            flying.iter(world).map(|(entity, in_flight)| (entity, in_flight.clone())).collect();
         for (from, to) in
             in_flight.iter().filter(|(entity, _)| !now.contains_key(entity)).map(|(_, link)| *link)
         {
             links.entry((from, to)).or_default().landed += 1;
         }
-        for envelope in now.iter().filter(|(entity, _)| !in_flight.contains_key(entity)).map(|(_, new)| new) {
-            let seen = links.entry((envelope.from, envelope.to)).or_default();
+        for new in now.iter().filter(|(entity, _)| !in_flight.contains_key(entity)).map(|(_, new)| new) {
+            let seen = links.entry((new.packet.from, new.packet.to)).or_default();
             seen.launched += 1;
-            seen.late += u64::from(envelope.late);
+            seen.late += u64::from(new.late);
         }
         let bytes: BTreeMap<u64, u64> =
-            flying.iter(world).map(|(_, envelope, payload)| (envelope.id, payload.0.len() as u64)).collect();
-        for entry in world.resource::<RadioLog>().entries() {
+            now.values().map(|flying| (flying.id, flying.packet.bytes.len() as u64)).collect();
+        for entry in world.resource::<RadioRecord>().transmissions() {
             if logged.insert(entry.id) {
-                let seen = links.entry((entry.from, entry.to)).or_default();
+                let seen = links.entry((entry.packet.from, entry.packet.to)).or_default();
                 seen.sent += 1;
-                seen.lost_on_air += u64::from(matches!(entry.outcome, Outcome::Lost(_)));
+                seen.lost_on_air += u64::from(matches!(entry.state, TransmissionState::Lost(_)));
                 seen.bytes += bytes.get(&entry.id).copied().unwrap_or_default();
             }
         }
-        in_flight =
-            now.into_iter().map(|(entity, envelope)| (entity, (envelope.from, envelope.to))).collect();
+        let link = |flying: InFlight| (flying.packet.from, flying.packet.to);
+        in_flight = now.into_iter().map(|(entity, flying)| (entity, link(flying))).collect();
     }
     links
 }
@@ -81,7 +81,7 @@ fn counters_of_every_link_agree_with_the_messages_seen() {
     for radio in ["perfect", "good", "bursty", "awful"] {
         let mut game = Match::new(&talkative(radio, 3));
         let links = watch(&mut game);
-        let traffic = game.world().resource::<Traffic>();
+        let traffic = game.world().resource::<RadioRecord>();
         assert_eq!(links.len(), 24, "two teams of four have 24 links");
         for ((from, to), seen) in &links {
             let counted = traffic.link(*from, *to);
@@ -115,7 +115,7 @@ fn what_is_said_to_a_deaf_robot_or_by_a_mute_one_is_lost_and_counted_as_such() {
     for _ in 0..600 {
         game.tick();
     }
-    let traffic = game.world().resource::<Traffic>();
+    let traffic = game.world().resource::<RadioRecord>();
     let (to_deaf, by_mute) = (traffic.sent_to(deaf), traffic.sent_by(mute));
     assert_eq!((to_deaf.delivered, by_mute.delivered), (0, 0));
     assert_eq!(by_mute.lost_to(Loss::Mute), by_mute.sent);
@@ -141,7 +141,7 @@ fn every_team_of_hammerheads_plays_on_when_the_radio_is_dead() {
             while !game.is_over() {
                 game.tick();
             }
-            let traffic = game.world().resource::<Traffic>().total();
+            let traffic = game.world().resource::<RadioRecord>().total();
             assert_eq!(traffic.delivered, 0, "{team}: the radio is dead");
             assert!(traffic.sent > 1000, "{team}: and everybody talks");
             goals += game.state().score[0];
@@ -186,6 +186,6 @@ fn a_match_does_not_keep_account_of_messages_that_are_gone() {
     for _ in 0..1200 {
         game.tick();
     }
-    assert!(game.world().resource::<Traffic>().total().delivered > 1000);
-    assert_eq!(game.world().removed::<Envelope>().count(), 0);
+    assert!(game.world().resource::<RadioRecord>().total().delivered > 1000);
+    assert_eq!(game.world().removed::<InFlight>().count(), 0);
 }

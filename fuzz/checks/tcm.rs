@@ -1,10 +1,10 @@
 //! What must hold of the TCM whatever arrives. The fuzz targets call it with new inputs, the tests with those in the corpus.
 #![allow(dead_code, reason = "each fuzz target calls one of these")]
 
-use touchline::comms::tcm::external_message::{Address, DataType, Entity, ExternalMessage, Module};
+use touchline::comms::tcm::external_message::{Address, DataType, ExternalMessage, Module, Peer};
 use touchline::comms::tcm::fragments::{Assembly, HEADER, Header, Limits, cut};
 
-const LIMITS: Limits = Limits { messages: 4, bytes: 16_000, message_bytes: 4_000, patience: 8 };
+const LIMITS: Limits = Limits { messages: 4, bytes: 16_000, message_bytes: 4_000, timeout: 8 };
 
 /// Takes an input for datagrams: each is a byte for the ticks that pass before it, a byte for its length, and its bytes, of
 /// which those that are the same for all datagrams are left out.
@@ -18,7 +18,7 @@ pub fn datagrams(input: &[u8]) {
         if wait % 5 == 0 {
             assembly.expire(now);
         }
-        let datagram = [b"TCM\x01", bytes].concat();
+        let datagram = [b"TCM\x02", bytes].concat();
         let before = total(&assembly);
         let accepted = assembly.accept(now, &datagram);
         assert!(assembly.memory() <= LIMITS.memory());
@@ -31,7 +31,7 @@ pub fn datagrams(input: &[u8]) {
         assert!(total(&assembly) > before, "every datagram is counted");
         match accepted {
             Ok(Some(message)) => {
-                assert!(message.data.len() <= LIMITS.message_bytes && message.source.entity.is_one());
+                assert!(message.data.len() <= LIMITS.message_bytes && message.source.peer.is_one());
                 let counter = Header::read(&datagram).map(|(header, _)| header.counter);
                 survives(&message, counter.unwrap_or_default(), datagram.len());
             }
@@ -39,8 +39,8 @@ pub fn datagrams(input: &[u8]) {
             Err(refused) => assert!(!refused.to_string().is_empty()),
         }
     }
-    assembly.expire(now + LIMITS.patience);
-    assembly.expire(now + 2 * LIMITS.patience);
+    assembly.expire(now + LIMITS.timeout);
+    assembly.expire(now + 2 * LIMITS.timeout);
     assert_eq!(assembly.memory(), 0);
 }
 
@@ -58,7 +58,7 @@ fn total(assembly: &Assembly) -> u64 {
 pub fn header(input: &[u8]) {
     if let Ok((header, piece)) = Header::read(input) {
         assert_eq!(header.datagram(piece), input);
-        assert!(header.index < header.count && header.source.entity.is_one());
+        assert!(header.index < header.count && header.source.peer.is_one());
         assert!(piece.len() <= header.total as usize && piece.len() + HEADER == input.len());
         if header.count == 1 {
             let arrived = Assembly::new(LIMITS).accept(0, input);
@@ -70,28 +70,28 @@ pub fn header(input: &[u8]) {
 /// Takes an input for a message, how it is cut, and the order in which its datagrams arrive; and for an entity's name.
 pub fn external_message(input: &[u8]) {
     if let Ok(text) = std::str::from_utf8(input)
-        && let Ok(entity) = text.parse::<Entity>()
+        && let Ok(peer) = text.parse::<Peer>()
     {
-        assert_eq!(entity.to_string().parse(), Ok(entity));
+        assert_eq!(peer.to_string().parse(), Ok(peer));
     }
     let Some(([kind, team, number, module, to, data_type, piece, step], data)) = input.split_first_chunk()
     else {
         return;
     };
-    let entity = |kind: u8| match kind % 4 {
-        0 => Entity::Robot { team: *team, number: *number },
-        1 => Entity::Computer(*number),
-        2 => Entity::Team(*team),
-        _ => Entity::Everybody,
+    let peer = |kind: u8| match kind % 4 {
+        0 => Peer::Robot { team: *team, number: *number },
+        1 => Peer::Computer(*number),
+        2 => Peer::Team(*team),
+        _ => Peer::Everybody,
     };
     let message = ExternalMessage {
-        source: Address { entity: entity(*kind), module: Module(*module) },
-        destination: Address { entity: entity(kind / 4), module: Module(*to) },
+        source: Address { peer: peer(*kind), module: Module(*module) },
+        destination: Address { peer: peer(kind / 4), module: Module(*to) },
         data_type: DataType(u16::from(*data_type) * 256),
         data: data.to_vec(),
     };
     let Ok(datagrams) = cut(&message, u32::MAX, HEADER + usize::from(*piece)) else {
-        assert!(!message.source.entity.is_one() || (*piece == 0 && !data.is_empty()));
+        assert!(!message.source.peer.is_one() || (*piece == 0 && !data.is_empty()));
         return;
     };
     let mut assembly = Assembly::new(Limits::default());

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use crate::comms::tcm::Directory;
-use crate::comms::tcm::external_message::Entity;
+use crate::comms::tcm::Peer;
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, TopLevel, no_such};
 
 /// Reads the table of addresses.
@@ -20,9 +20,9 @@ pub(crate) fn read_addresses(path: &Path) -> Result<Directory, DataError> {
 
 /// The entry of an entity, however its name is written; the last one of several.
 fn entry_of(source: &Source, entity: String) -> Field {
-    let wanted = entity.parse::<Entity>();
+    let wanted = entity.parse::<Peer>();
     let written = match source.top_level() {
-        Ok(TopLevel::Map(keys)) => keys.into_iter().rev().find(|key| key.parse::<Entity>() == wanted),
+        Ok(TopLevel::Map(keys)) => keys.into_iter().rev().find(|key| key.parse::<Peer>() == wanted),
         _ => None,
     };
     Field::root().key(written.unwrap_or(entity))

@@ -20,7 +20,7 @@ pub use team::{TeamFile, TeamPlan};
 pub use situation::{Placed, Situation};
 
 use crate::clock::Clock;
-use crate::comms::radio::{Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
+use crate::comms::radio::{Channel, FaultRules, Interference, RadioRecord};
 use crate::comms::tcm::{Addresses, Incoming, OnAir};
 use crate::game::record::Record;
 use crate::game::requests::{Requests, Script};
@@ -64,11 +64,9 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(Requests::default());
     world.insert_resource(Script::new(&plan.script));
     world.insert_resource(Channel::new(seed, plan.radio.clone()));
-    world.insert_resource(Conditions::default());
+    world.insert_resource(Interference::default());
     world.insert_resource(FaultRules::new(plan.faults.iter().cloned()));
-    world.insert_resource(MessageCounts::default());
-    world.insert_resource(Traffic::default());
-    world.insert_resource(RadioLog::default());
+    world.insert_resource(RadioRecord::default());
     world.insert_resource(Addresses(plan.directory()));
     world.insert_resource(Incoming::default());
     world.insert_resource(OnAir::default());
@@ -88,9 +86,7 @@ pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity
     world.insert_resource(plan.pitch.clone());
     world.insert_resource(plan.ball);
     world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
-    world.insert_resource(MessageCounts::default());
-    world.insert_resource(Traffic::default());
-    world.insert_resource(RadioLog::default());
+    world.insert_resource(RadioRecord::default());
     world.insert_resource(Addresses(plan.directory()));
     spawn_mind(world, plan, robot, seed, &clock)
 }

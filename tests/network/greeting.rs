@@ -6,10 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use touchline::comms::messages::Text;
-use touchline::comms::tcm::external_message::Entity as Party;
+use touchline::comms::messages::Message;
 use touchline::comms::tcm::fragments::{Assembly, Limits};
-use touchline::comms::tcm::{Addresses, Data, ExternalMessage, HOST, party};
+use touchline::comms::tcm::{Addresses, Data, ExternalMessage, HOST, Peer};
 use touchline::game::net::{
     self, Greeting, Introduction, RobotEnd, RobotProcess, RobotReport, WireError, WirePlan,
 };
@@ -172,7 +171,7 @@ fn a_robot_given_up_in_the_midst_of_a_match_plays_on_here_though_somebody_has_it
     net::give_up(game.world_mut(), HOME_1).expect("there are other ports");
     assert_eq!(net::poll_greeting(game.world_mut()), Greeting::Done);
     let directory = game.world().resource::<Addresses>().0.clone();
-    assert_ne!(directory.address_of(party(HOME_1)), taken.local_addr().ok());
+    assert_ne!(directory.address_of(Peer::from(HOME_1)), taken.local_addr().ok());
     let before = figures(&game);
     let driven = |game: &Match| {
         game.record().driven.iter().find(|(robot, _)| *robot == HOME_1).map(|(_, driven)| *driven)
@@ -190,11 +189,11 @@ fn a_robot_given_up_in_the_midst_of_a_match_plays_on_here_though_somebody_has_it
 
 #[test]
 fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
-    let text = Text("hello".into());
+    let text = Message::Text("hello".into());
     let (mut game, plan) = open(&with_remote(talkative(0.1), &[HOME_1]));
     let host = plan.directory().address_of(HOST).expect("it is there");
     let robot = UdpSocket::bind(address_of(&plan, HOME_1)).expect("it was free");
-    for bytes in [b"hello".to_vec(), datagram(party(HOME_1), HOST, 1, &text)] {
+    for bytes in [b"hello".to_vec(), datagram(Peer::from(HOME_1), HOST, 1, &text)] {
         robot.send_to(&bytes, host).expect("it is sent");
         let Greeting::Awaiting(awaited) = net::poll_greeting(game.world_mut()) else {
             panic!("it is no robot")
@@ -206,7 +205,7 @@ fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
     let host = UdpSocket::bind(host).expect("the match is over");
     let mut robot = Elsewhere::start(&plan, HOME_1);
     while robot.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
-        let told = datagram(HOST, party(HOME_1), 1, &text);
+        let told = datagram(HOST, Peer::from(HOME_1), 1, &text);
         host.send_to(&told, address_of(&plan, HOME_1)).expect("it is sent");
         std::thread::yield_now();
     }
@@ -223,8 +222,9 @@ fn a_match_that_stands_still_reminds_its_robots_that_it_is_there() {
     while introductions < 3 {
         let is_in = net::poll_greeting(game.world_mut()) == Greeting::Done;
         let Some(message) = next_message(&robot) else { continue };
-        let introduction = Introduction::unserialise(&message.data).expect("the match is not played");
-        robot.send_to(&datagram(party(HOME_1), HOST, 1, &introduction), host).expect("it is sent");
+        let introduction =
+            Introduction::unserialise(message.data_type, &message.data).expect("the match is not played");
+        robot.send_to(&datagram(Peer::from(HOME_1), HOST, 1, &introduction), host).expect("it is sent");
         introductions += u32::from(is_in);
     }
 }
@@ -252,7 +252,7 @@ fn a_robot_begins_again_with_its_match() {
 #[test]
 fn who_floods_a_match_with_datagrams_does_not_stop_it() {
     let (mut game, plan) = open(&with_remote(talkative(0.05), &[HOME_1]));
-    let to = [HOST, party(HOME_0)].map(|who| plan.directory().address_of(who).expect("it is there"));
+    let to = [HOST, Peer::from(HOME_0)].map(|who| plan.directory().address_of(who).expect("it is there"));
     let stops = Arc::new(AtomicBool::new(false));
     let threads = [(to[0], stranger()), (to[1], stranger()), (to[0], stranger())].map(|(to, socket)| {
         let stops = stops.clone();
@@ -288,7 +288,7 @@ fn a_tick_takes_so_many_datagrams_at_most_and_the_next_ones_the_rest() {
 fn addresses_of_ipv6_carry_a_match_and_its_robots() {
     let mut plan = with_remote(talkative(0.05), &[HOME_1]);
     let addresses = super::free_directory(&plan);
-    let on_loopback = |(who, at): (Party, std::net::SocketAddr)| {
+    let on_loopback = |(who, at): (Peer, std::net::SocketAddr)| {
         (who, std::net::SocketAddr::from((std::net::Ipv6Addr::LOCALHOST, at.port())))
     };
     plan.addresses = Some(addresses.entries().map(on_loopback).collect());

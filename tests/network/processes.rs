@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 use touchline::comms::tcm::udp::UdpError;
-use touchline::comms::tcm::{Directory, HOST, party};
+use touchline::comms::tcm::{Directory, HOST, Peer};
 use touchline::game::MatchPlan;
 use touchline::game::net::{self, Greeting, WireError, WirePlan};
 use touchline::ids::{RobotId, Team};
@@ -238,7 +238,7 @@ fn a_remote_robot_that_never_comes_is_named_and_waited_for_as_long_as_was_asked_
     let (file, addresses) = addresses_of(&plan);
     let run = ["run", "--remote", "home:1", "--patience", "0.7"];
     let output = Process::start(&[&run[..], &TALKATIVE].concat(), &file).end();
-    let at = addresses.address_of(party(HOME_1)).expect("it is there");
+    let at = addresses.address_of(Peer::from(HOME_1)).expect("it is there");
     let start = "start it with `touchline robot --team home --number 1`";
     let lines = [
         format!("waiting for home 1 at {at}; {start}"),

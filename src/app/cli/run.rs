@@ -11,7 +11,7 @@ use super::ending::{CommandError, Ending, tell};
 use super::interrupt::Interrupt;
 use super::options::{HostOptions, MatchOptions, SeedOption};
 use super::referee_box::BoxReport;
-use crate::comms::radio::{LinkCounters, Traffic};
+use crate::comms::radio::{LinkCounters, RadioRecord};
 use crate::comms::tcm::{MessageBudgets, Spent};
 use crate::data::{AssetFolder, in_one_line};
 use crate::game::net::{self, Awaited, CarrierFigures, RemoteFigures, UdpCarrier};
@@ -140,9 +140,8 @@ struct Messages {
 }
 
 impl Messages {
-    fn of(team: Team, traffic: &Traffic) -> Messages {
-        let links = traffic.links().filter(|(from, ..)| from.team == team);
-        let all: LinkCounters = links.map(|(.., counters)| *counters).sum();
+    fn of(team: Team, radio: &RadioRecord) -> Messages {
+        let all = radio.sum(|from, _, _| from.team == team);
         let LinkCounters { sent, delivered, late, bytes, .. } = all;
         Messages { sent, delivered, lost: all.lost_in_all(), late, bytes }
     }
@@ -261,7 +260,7 @@ impl Report {
             bookings: record.bookings,
             overlap: record.overlap,
             driven: Team::BOTH.map(|team| record.driven_by(team)),
-            messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<Traffic>())),
+            messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<RadioRecord>())),
             budgets: TeamBudget::of(game),
             network: Network::of(game),
             referee_box: BoxReport::of(game),

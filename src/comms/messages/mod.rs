@@ -1,22 +1,26 @@
 //! What robots of a team say to each other, and how it crosses the radio: as bytes.
 //!
-//! Each type of message is one of the TCM's data types, serialised by
-//! [postcard](https://postcard.jamesmunns.com/wire-format): its fields in their order; `u8` as they are, larger integers and
-//! lengths as little-endian base 128, `f32` as four little-endian bytes, `bool` and variants as one byte.
+//! A message is written by [postcard](https://postcard.jamesmunns.com/wire-format): its fields in their order; `u8` as they
+//! are, larger integers and lengths as little-endian base 128, `f32` as four little-endian bytes, `bool` and variants as one
+//! byte. Which message it is its data type tells, so [`Message`] itself is never written. A new message is a type, a variant
+//! and a row of the table below, and then its sender and its receiver.
 
 mod inbox;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
 
 use bevy::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 pub use inbox::{Inbox, Received};
 
-pub use crate::comms::tcm::MessageKind;
-use crate::comms::tcm::{Data, DataType, Module, from_postcard, to_postcard};
+use crate::comms::tcm::{Data, DataType, Module, RegisterData, data};
 use crate::protocol::{b3p, role_swap};
 
 pub(super) fn plugin(app: &mut App) {
-    inbox::plugin(app);
+    app.register_data::<Message>().add_observer(inbox::put_into_inbox);
 }
 
 /// A message of one robot to its team mates. The first three are those of the Hammerheads' figure 3, with its fields.
@@ -25,10 +29,14 @@ pub enum Message {
     Position(Position),
     HaveBall(HaveBall),
     Goalie(GoalieNews),
+    /// LOCK, ACKLOCK, SWAP and ACKSWAP.
     RoleSwap(role_swap::Message),
     Values(Values),
-    Book(Book),
+    /// The sender has booked the ball (TeamChaos, section 4).
+    Book(b3p::Book),
     BallReport(BallReport),
+    /// A line for people to read.
+    Text(String),
 }
 
 /// Where the sender is; sent by every player again and again.
@@ -63,7 +71,7 @@ pub struct GoalieNews {
     pub time: u32,
     pub robot: u8,
     pub behaviour: GoalieBehaviour,
-    pub side: Side,
+    pub side: GoalSide,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -74,7 +82,7 @@ pub enum GoalieBehaviour {
 
 /// A side of the goal, as seen by the goalie looking up the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Side {
+pub enum GoalSide {
     Left,
     Centre,
     Right,
@@ -92,10 +100,6 @@ pub struct Values {
     pub wish: Option<u8>,
 }
 
-/// The sender has booked the ball (TeamChaos, section 4).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Book(pub b3p::Book);
-
 /// Where the sender sees the ball (TeamChaos, section 1).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BallReport {
@@ -107,91 +111,100 @@ pub struct BallReport {
     pub age: f32,
 }
 
-/// A line for people to read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Text(pub String);
+/// The table of messages. A row is a data type: its constant, its word in files and its number; its name and its module; the
+/// messages of this type, what is written of them, and what they must satisfy.
+macro_rules! messages {
+    ($($constant:ident $word:ident $number:literal: $name:literal $module:ident;
+        ($($message:tt)+) = $written:tt: $type:ty $(, if $is_sound:expr)?;)+) => {
+        impl DataType {
+            $(pub const $constant: DataType = DataType($number);)+
+        }
 
-/// Makes a type a data type of the TCM that is serialised by postcard. `$sound` says whether what was read makes sense.
-macro_rules! data {
-    ($type:ty, $number:expr, $module:expr, $name:literal, $kind:expr, $sound:expr) => {
-        data!($type, $number, $module, $name, $kind, $sound, |_| None);
-    };
-    ($type:ty, $number:expr, $module:expr, $name:literal, $kind:expr, $sound:expr, $sequence:expr) => {
-        impl Data for $type {
-            const TYPE: DataType = $number;
-            const MODULE: Module = $module;
-            const NAME: &'static str = $name;
+        data!(Message {
+            $(DataType::$constant, $name, Module::$module; ($($message)+) = $written: $type $(, if $is_sound)?;)+
+        });
 
-            fn serialise(&self) -> Vec<u8> {
-                to_postcard(self)
+        /// The data types of messages by their words in files.
+        #[derive(Serialize, Deserialize)]
+        #[serde(rename = "MessageKind")]
+        enum MessageWord {
+            $($word),+
+        }
+
+        impl Serialize for DataType {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                match *self {
+                    $(DataType::$constant => MessageWord::$word.serialize(serializer),)+
+                    other => Err(serde::ser::Error::custom(format!("{other} is no message"))),
+                }
             }
+        }
 
-            fn unserialise(bytes: &[u8]) -> Option<$type> {
-                let sound: fn(&$type) -> bool = $sound;
-                from_postcard(bytes, sound)
-            }
-
-            fn kind(&self) -> MessageKind {
-                let kind: fn(&$type) -> MessageKind = $kind;
-                kind(self)
-            }
-
-            fn sequence(&self) -> Option<role_swap::Sequence> {
-                let sequence: fn(&$type) -> Option<role_swap::Sequence> = $sequence;
-                sequence(self)
+        impl<'de> Deserialize<'de> for DataType {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<DataType, D::Error> {
+                Ok(match MessageWord::deserialize(deserializer)? {
+                    $(MessageWord::$word => DataType::$constant,)+
+                })
             }
         }
     };
 }
 
-data!(Position, DataType::POSITION, Module::WORLD_MODEL, "position", |_| MessageKind::Position, |position| {
-    position.position.is_finite() && position.heading.is_finite()
-});
-data!(HaveBall, DataType::HAVE_BALL, Module::CLAIMS, "have-ball", |_| MessageKind::HaveBall, |_| true);
-data!(GoalieNews, DataType::GOALIE_NEWS, Module::GOALIE, "goalie", |_| MessageKind::Goalie, |_| true);
-data!(
-    role_swap::Message,
-    DataType::ROLE_SWAP,
-    Module::ROLE_SWAP,
-    "role swap",
-    MessageKind::of_role_swap,
-    |_| true,
-    |message| Some(message.sequence())
-);
-data!(Values, DataType::VALUES, Module::POLICY, "values", |_| MessageKind::Values, |values| {
-    values.values.iter().all(|value| value.is_finite())
-});
-data!(Book, DataType::BOOK, Module::BALL_BOOKING, "book", |_| MessageKind::Book, |_| true);
-data!(
-    BallReport,
-    DataType::BALL_REPORT,
-    Module::WORLD_MODEL,
-    "ball report",
-    |_| MessageKind::BallReport,
-    |report| report.position.is_finite() && report.age.is_finite() && report.age >= 0.0
-);
-data!(Text, DataType::TEXT, Module::CHAOS_MANAGER, "text", |_| MessageKind::Other, |_| true);
+messages! {
+    POSITION Position 1: "position" WORLD_MODEL; (Message::Position(it)) = it: Position,
+        if |it: &Position| it.position.is_finite() && it.heading.is_finite();
+    HAVE_BALL HaveBall 2: "have-ball" CLAIMS; (Message::HaveBall(it)) = it: HaveBall;
+    GOALIE_NEWS Goalie 3: "goalie" GOALIE; (Message::Goalie(it)) = it: GoalieNews;
+    VALUES Values 5: "values" POLICY; (Message::Values(it)) = it: Values,
+        if |it: &Values| it.values.iter().all(|value| value.is_finite());
+    LOCK Lock 9: "LOCK" ROLE_SWAP; (Message::RoleSwap(role_swap::Message::Lock { sequence }))
+        = sequence: role_swap::Sequence;
+    ACK_LOCK AckLock 10: "ACKLOCK" ROLE_SWAP; (Message::RoleSwap(role_swap::Message::AckLock { sequence, holds }))
+        = (sequence, holds): (role_swap::Sequence, role_swap::Holding);
+    SWAP Swap 11: "SWAP" ROLE_SWAP; (Message::RoleSwap(role_swap::Message::Swap { sequence, order }))
+        = (sequence, order): (role_swap::Sequence, role_swap::Order);
+    ACK_SWAP AckSwap 12: "ACKSWAP" ROLE_SWAP; (Message::RoleSwap(role_swap::Message::AckSwap { sequence }))
+        = sequence: role_swap::Sequence;
+    BOOK Book 6: "book" BALL_BOOKING; (Message::Book(it)) = it: b3p::Book;
+    BALL_REPORT BallReport 7: "ball report" WORLD_MODEL; (Message::BallReport(it)) = it: BallReport,
+        if |it: &BallReport| it.position.is_finite() && it.age.is_finite() && it.age >= 0.0;
+    TEXT Text 8: "text" CHAOS_MANAGER; (Message::Text(it)) = it: String;
+}
 
-/// The union of the types that robots of a team exchange.
-macro_rules! into_message {
-    ($($variant:ident($type:ty)),*) => {
-        $(impl From<$type> for Message {
-            fn from(data: $type) -> Message {
-                Message::$variant(data)
+impl fmt::Display for DataType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match Message::TYPES.iter().find(|known| known.number == *self) {
+            Some(known) => f.write_str(known.name),
+            None => write!(f, "type {}", self.0),
+        }
+    }
+}
+
+/// The table of modules: their constants, numbers and names.
+macro_rules! modules {
+    ($($constant:ident $number:literal: $name:literal;)+) => {
+        impl Module {
+            $(pub const $constant: Module = Module($number);)+
+        }
+
+        impl fmt::Display for Module {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                match *self {
+                    $(Module::$constant => f.write_str($name),)+
+                    Module(other) => write!(f, "module {other}"),
+                }
             }
-        })*
+        }
     };
 }
 
-into_message!(
-    Position(Position),
-    HaveBall(HaveBall),
-    Goalie(GoalieNews),
-    RoleSwap(role_swap::Message),
-    Values(Values),
-    Book(Book),
-    BallReport(BallReport)
-);
-
-#[cfg(test)]
-mod tests;
+modules! {
+    WORLD_MODEL 0: "world model";
+    CLAIMS 1: "claims";
+    GOALIE 2: "goalie";
+    ROLE_SWAP 3: "role swap";
+    POLICY 4: "policy";
+    BALL_BOOKING 5: "ball booking";
+    CHAOS_MANAGER 6: "ChaosManager";
+    REMOTE_ROBOTS 7: "remote robots";
+}

@@ -3,13 +3,15 @@ use proptest::prelude::*;
 use super::*;
 use crate::protocol::role_swap::{Assignment, Configuration, Holding, Order};
 
-fn position(configuration: Option<Configuration>) -> Position {
-    Position { time: 1500, robot: 3, position: Vec2::new(1.5, -0.25), heading: Vec2::X, configuration }
+fn position(configuration: Option<Configuration>) -> Message {
+    let (position, heading) = (Vec2::new(1.5, -0.25), Vec2::X);
+    Message::Position(Position { time: 1500, robot: 3, position, heading, configuration })
 }
 
-fn has_bytes<T: Data + PartialEq + std::fmt::Debug>(data: T, bytes: &[u8]) {
-    assert_eq!(data.serialise(), bytes, "{data:?}");
-    assert_eq!(T::unserialise(bytes), Some(data));
+fn is(message: Message, data_type: DataType, bytes: &[u8]) {
+    let (known, written) = message.serialise();
+    assert_eq!((known.number, written.as_slice()), (data_type, bytes), "{message:?}");
+    assert_eq!(Message::unserialise(data_type, bytes), Some(message));
 }
 
 fn configuration() -> Configuration {
@@ -19,76 +21,85 @@ fn configuration() -> Configuration {
 /// Figure 3's three messages, byte by byte.
 #[test]
 fn the_messages_of_figure_3_have_these_bytes() {
-    has_bytes(
+    is(
         position(None),
+        DataType::POSITION,
         &[0xDC, 0x0B, 3, 0, 0, 0xC0, 0x3F, 0, 0, 0x80, 0xBE, 0, 0, 0x80, 0x3F, 0, 0, 0, 0, 0],
     );
-    has_bytes(HaveBall { time: 1800, robot: 0, have_ball: true, role: 2 }, &[0x88, 0x0E, 0, 1, 2]);
-    let (behaviour, side) = (GoalieBehaviour::Leaving, Side::Right);
-    has_bytes(GoalieNews { time: 650, robot: 2, behaviour, side }, &[0x8A, 0x05, 2, 0, 2]);
+    let claim = HaveBall { time: 1800, robot: 0, have_ball: true, role: 2 };
+    is(Message::HaveBall(claim), DataType::HAVE_BALL, &[0x88, 0x0E, 0, 1, 2]);
+    let (behaviour, side) = (GoalieBehaviour::Leaving, GoalSide::Right);
+    let news = GoalieNews { time: 650, robot: 2, behaviour, side };
+    is(Message::Goalie(news), DataType::GOALIE_NEWS, &[0x8A, 0x05, 2, 0, 2]);
 }
 
 #[test]
-fn the_messages_of_the_role_swap_have_these_bytes() {
+fn the_messages_of_the_role_swap_are_four_types_and_have_these_bytes() {
+    use role_swap::Message::{AckLock, AckSwap, Lock, Swap};
     let holds = Holding::Configuration(configuration());
     let order = Order::Assignment(Assignment::new([1, 0]));
-    has_bytes(role_swap::Message::Lock { sequence: 7 }, &[0, 7]);
-    has_bytes(role_swap::Message::AckLock { sequence: 7, holds: Holding::Role(2) }, &[1, 7, 0, 2]);
-    has_bytes(role_swap::Message::AckLock { sequence: 7, holds }, &[1, 7, 1, 0xAC, 2, 1, 4, 0, 3, 1, 2]);
-    has_bytes(role_swap::Message::Swap { sequence: 7, order: Order::Role(1) }, &[2, 7, 0, 1]);
-    has_bytes(role_swap::Message::Swap { sequence: 7, order }, &[2, 7, 1, 2, 1, 0]);
-    has_bytes(role_swap::Message::AckSwap { sequence: 7 }, &[3, 7]);
+    let is = |message, data_type, bytes| is(Message::RoleSwap(message), data_type, bytes);
+    is(Lock { sequence: 7 }, DataType::LOCK, &[7]);
+    is(AckLock { sequence: 7, holds: Holding::Role(2) }, DataType::ACK_LOCK, &[7, 0, 2]);
+    is(AckLock { sequence: 7, holds }, DataType::ACK_LOCK, &[7, 1, 0xAC, 2, 1, 4, 0, 3, 1, 2]);
+    is(Swap { sequence: 7, order: Order::Role(1) }, DataType::SWAP, &[7, 0, 1]);
+    is(Swap { sequence: 7, order }, DataType::SWAP, &[7, 1, 2, 1, 0]);
+    is(AckSwap { sequence: 7 }, DataType::ACK_SWAP, &[7]);
 }
 
 #[test]
 fn the_messages_about_the_ball_have_these_bytes() {
     let (distance, key) = (b3p::Distance(800), b3p::Distance(1500));
-    has_bytes(Book(b3p::Book { distance, term: 3, key }), &[0xA0, 0x06, 3, 0xDC, 0x0B]);
+    let book = b3p::Book { distance, term: 3, key };
+    is(Message::Book(book), DataType::BOOK, &[0xA0, 0x06, 3, 0xDC, 0x0B]);
     let report = BallReport { time: 1500, position: Vec2::new(1.5, -0.25), age: 0.0 };
-    has_bytes(report, &[0xDC, 0x0B, 0, 0, 0xC0, 0x3F, 0, 0, 0x80, 0xBE, 0, 0, 0, 0]);
-    has_bytes(Text("go".into()), &[2, b'g', b'o']);
+    let bytes = [0xDC, 0x0B, 0, 0, 0xC0, 0x3F, 0, 0, 0x80, 0xBE, 0, 0, 0, 0];
+    is(Message::BallReport(report), DataType::BALL_REPORT, &bytes);
+    is(Message::Text("go".into()), DataType::TEXT, &[2, b'g', b'o']);
 }
 
 #[test]
 fn a_configuration_rides_on_a_position_message_and_costs_nothing_without_one() {
-    let (with, without) = (position(Some(configuration())).serialise(), position(None).serialise());
-    assert_eq!(with.len(), without.len() + 8);
+    let bytes = |message: Message| message.serialise().1.len();
+    assert_eq!(bytes(position(Some(configuration()))), bytes(position(None)) + 8);
 }
 
 #[test]
-fn every_kind_has_a_message_and_an_attempt_where_it_belongs_to_one() {
-    let lock = role_swap::Message::Lock { sequence: 4 };
-    assert_eq!((lock.kind(), Data::sequence(&lock)), (MessageKind::Lock, Some(4)));
-    assert_eq!((position(None).kind(), position(None).sequence()), (MessageKind::Position, None));
-    assert_eq!(MessageKind::AckSwap.to_string(), "ACKSWAP");
+fn every_message_has_a_number_a_name_and_a_word_of_its_own() {
+    let mut numbers = std::collections::BTreeSet::new();
+    for known in Message::TYPES {
+        assert!(numbers.insert(known.number.0), "{} is there twice", known.number.0);
+        let word = ron::to_string(&known.number).expect("it has a word");
+        assert_eq!(ron::from_str(&word), Ok(known.number), "{word}");
+        assert_eq!(known.number.to_string(), known.name);
+    }
+    assert_eq!(ron::from_str("AckSwap"), Ok(DataType::ACK_SWAP));
+    let error = ron::from_str::<DataType>("Acknowledge").expect_err("there is no such message");
+    assert!(error.to_string().contains("AckLock"), "{error}");
+    assert!(ron::to_string(&DataType::FIRST_FREE).is_err());
 }
 
 #[test]
 fn what_is_cut_off_lengthened_or_not_a_number_is_no_message() {
-    let bytes = position(None).serialise();
-    assert_eq!(Position::unserialise(&bytes[..bytes.len() - 1]), None);
-    assert_eq!(Position::unserialise(&[bytes.as_slice(), &[0]].concat()), None);
+    let bytes = position(None).serialise().1;
+    let read = |bytes: &[u8]| Message::unserialise(DataType::POSITION, bytes);
+    assert_eq!(read(&bytes[..bytes.len() - 1]), None);
+    assert_eq!(read(&[bytes.as_slice(), &[0]].concat()), None);
     let mut nan = bytes.clone();
     nan[3..7].copy_from_slice(&f32::NAN.to_le_bytes());
-    assert_eq!(Position::unserialise(&nan), None);
-}
-
-fn read_again<T: Data + PartialEq + std::fmt::Debug>(bytes: &[u8]) {
-    if let Some(data) = T::unserialise(bytes) {
-        assert_eq!(T::unserialise(&data.serialise()), Some(data));
-    }
+    assert_eq!(read(&nan), None);
+    assert_eq!(Message::unserialise(DataType::FIRST_FREE, &bytes), None);
 }
 
 proptest! {
     #[test]
-    fn any_bytes_are_data_or_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..64)) {
-        read_again::<Position>(&bytes);
-        read_again::<HaveBall>(&bytes);
-        read_again::<GoalieNews>(&bytes);
-        read_again::<role_swap::Message>(&bytes);
-        read_again::<Values>(&bytes);
-        read_again::<Book>(&bytes);
-        read_again::<BallReport>(&bytes);
-        read_again::<Text>(&bytes);
+    fn any_bytes_are_a_message_or_are_refused(bytes in prop::collection::vec(any::<u8>(), 0..64)) {
+        for known in Message::TYPES {
+            if let Some(message) = Message::unserialise(known.number, &bytes) {
+                let (again, bytes) = message.serialise();
+                prop_assert_eq!(again, known);
+                prop_assert_eq!(Message::unserialise(known.number, &bytes), Some(message));
+            }
+        }
     }
 }

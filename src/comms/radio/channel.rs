@@ -1,8 +1,8 @@
-//! What becomes of a packet: lost, or arriving once or more after a while.
+//! The channel: a packet is lost, or arrives once or more after a while.
 //!
 //! Each directed link has dice and a state of its own, and each packet takes the same number of dice whatever the
-//! settings. So a packet's fate hangs on its link's past alone, budgets apart, and switching one mechanism on or off
-//! does not shift another.
+//! settings. So the delivery of a packet depends on its link's past alone, budgets apart, and switching one mechanism on or
+//! off does not shift another.
 
 #[cfg(test)]
 mod tests;
@@ -14,27 +14,32 @@ use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::conditions::{Conditions, Obstacle};
+use super::Packet;
 use super::faults::{Act, FaultRules};
-use super::packet::Packet;
+use super::interference::{Interference, Obstacle};
 use super::preset::{Budget, Radio, SharedBy};
 use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::rng::{Dice, Seed};
 
-/// What becomes of a packet. One that is lost has no copies, any other has one or more.
+/// What the channel does with a packet. One that is lost has no arrivals, any other has one or more.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Fate {
-    /// The packet itself first, then its duplicates; not in the order of their arrival.
-    pub copies: SmallVec<[Arrival; 2]>,
+pub struct Delivery {
+    /// That of the packet itself first, then those of its duplicates; not in the order of their ticks.
+    pub arrivals: SmallVec<[Arrival; 2]>,
     pub lost: Option<Loss>,
 }
 
-impl Fate {
+impl Delivery {
     /// It arrives in this tick.
-    pub fn on_time(due: u64) -> Fate {
+    pub fn on_time(due: u64) -> Delivery {
         let arrival = Arrival { due, late: false, duplicate: false };
-        Fate { copies: SmallVec::from_iter([arrival]), lost: None }
+        Delivery { arrivals: SmallVec::from_iter([arrival]), lost: None }
+    }
+
+    /// It does not arrive, for this reason.
+    pub fn lost(reason: Loss) -> Delivery {
+        Delivery { arrivals: SmallVec::new(), lost: Some(reason) }
     }
 }
 
@@ -43,7 +48,7 @@ impl Fate {
 pub struct Arrival {
     /// The tick, later than that of the sending.
     pub due: u64,
-    /// Whether it belongs to the late tail or was held up by the conditions or by a fault.
+    /// Whether it belongs to the late tail or was held up by interference or by a fault.
     pub late: bool,
     pub duplicate: bool,
 }
@@ -64,7 +69,7 @@ pub enum Loss {
     Range,
     /// The radio's own loss.
     Chance,
-    /// The conditions' extra loss.
+    /// The extra loss of the interference.
     Extra,
     /// The receiver could not hear when it arrived.
     Deaf,
@@ -75,12 +80,12 @@ pub enum Loss {
 pub struct Channel {
     seed: Seed,
     radio: Radio,
-    links: BTreeMap<(RobotId, RobotId), Link>,
+    links: BTreeMap<(RobotId, RobotId), LinkState>,
     buckets: BTreeMap<(Option<RobotId>, Option<RobotId>), Bucket>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-struct Link {
+struct LinkState {
     dice: Dice,
     /// The state of the loss in bursts.
     bad: bool,
@@ -107,13 +112,6 @@ struct Bucket {
     bytes: f64,
     /// The time of the last change, s.
     time: f64,
-}
-
-impl Fate {
-    /// No copies, for this reason.
-    pub fn lost(reason: Loss) -> Fate {
-        Fate { copies: SmallVec::new(), lost: Some(reason) }
-    }
 }
 
 impl Loss {
@@ -172,17 +170,18 @@ impl Channel {
         }
     }
 
-    /// Sends a packet in the clock's present tick. Every packet that finds its bytes in the bucket is charged, also if
+    /// Sends a packet over so many metres in the clock's present tick. Every packet that finds its bytes in the bucket is charged, also if
     /// it is then lost.
     pub fn send(
         &mut self,
         packet: &Packet,
-        conditions: &Conditions,
+        distance: f32,
+        interference: &Interference,
         faults: &mut FaultRules,
         clock: &Clock,
-    ) -> Fate {
+    ) -> Delivery {
         let seed = self.seed;
-        let link = self.links.entry((packet.from, packet.to)).or_insert_with(|| Link {
+        let link = self.links.entry((packet.from, packet.to)).or_insert_with(|| LinkState {
             dice: Dice::new(seed, &format!("radio to {}", packet.to), Some(packet.from)),
             bad: false,
         });
@@ -195,24 +194,24 @@ impl Channel {
             Some(Loss::Fault)
         } else if !paid {
             Some(Loss::Budget)
-        } else if let Some(obstacle) = conditions.obstacle(packet.from, packet.to) {
+        } else if let Some(obstacle) = interference.obstacle(packet.from, packet.to) {
             Some(if obstacle == Obstacle::Jammed { Loss::Jammed } else { Loss::CutOff })
-        } else if self.radio.range.is_some_and(|range| packet.distance > range) {
+        } else if self.radio.range.is_some_and(|range| distance > range) {
             Some(Loss::Range)
         } else if by_chance {
             Some(Loss::Chance)
-        } else if rolls.extra < conditions.extra_loss {
+        } else if rolls.extra < interference.extra_loss {
             Some(Loss::Extra)
         } else {
             None
         };
         if let Some(reason) = lost {
-            return Fate::lost(reason);
+            return Delivery::lost(reason);
         }
 
         let hold_ups =
             acts.iter().filter_map(|act| if let Act::Delay(seconds) = act { Some(*seconds) } else { None });
-        let held_up = hold_ups.sum::<f32>() + conditions.extra_delay;
+        let held_up = hold_ups.sum::<f32>() + interference.extra_delay;
         let arrival = |delay: f32, late: bool, duplicate: bool| Arrival {
             due: clock.tick.saturating_add(clock.ticks(delay)),
             late,
@@ -222,16 +221,16 @@ impl Channel {
             let (delay, late) = self.radio.delay(&roll);
             (delay + held_up, late || held_up > 0.0)
         });
-        let mut copies = SmallVec::from_iter([arrival(first, first_late, false)]);
+        let mut arrivals = SmallVec::from_iter([arrival(first, first_late, false)]);
         if rolls.duplicate < self.radio.duplication {
-            copies.push(arrival(second, second_late, true));
+            arrivals.push(arrival(second, second_late, true));
         }
         for act in acts {
             if let Act::Duplicate(seconds) = act {
-                copies.push(arrival(first + seconds, first_late || seconds > 0.0, true));
+                arrivals.push(arrival(first + seconds, first_late || seconds > 0.0, true));
             }
         }
-        Fate { copies, lost: None }
+        Delivery { arrivals, lost: None }
     }
 
     /// Takes a packet's bytes from its bucket; false if they are not there.
@@ -245,7 +244,7 @@ impl Channel {
             SharedBy::All => (None, None),
         };
         let full = Bucket { bytes: f64::from(budget.burst), time: now };
-        self.buckets.entry(owner).or_insert(full).take(packet.bytes, &budget, now)
+        self.buckets.entry(owner).or_insert(full).take(packet.bytes.len(), &budget, now)
     }
 }
 

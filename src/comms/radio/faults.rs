@@ -7,8 +7,8 @@ use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::packet::Packet;
-use crate::comms::messages::MessageKind;
+use super::Packet;
+use crate::comms::tcm::DataType;
 use crate::data::{Bound, Fault, first_fault};
 use crate::ids::RobotId;
 
@@ -17,7 +17,7 @@ use crate::ids::RobotId;
 #[serde(deny_unknown_fields)]
 pub struct FaultRule {
     #[serde(default)]
-    pub kind: Option<MessageKind>,
+    pub kind: Option<DataType>,
     #[serde(default)]
     pub from: Option<RobotId>,
     #[serde(default)]
@@ -57,7 +57,7 @@ pub type Acts = SmallVec<[Act; 2]>;
 
 /// What a rule has done so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct RuleCount {
     /// Packets that satisfied its conditions.
     pub counted: u32,
     /// Packets that it acted on.
@@ -67,7 +67,7 @@ pub struct Tally {
 /// The rules in force, each with its own count.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct FaultRules {
-    rules: Vec<(FaultRule, Tally)>,
+    rules: Vec<(FaultRule, RuleCount)>,
 }
 
 impl Which {
@@ -119,12 +119,12 @@ impl FaultRule {
 
 impl FaultRules {
     pub fn new(rules: impl IntoIterator<Item = FaultRule>) -> FaultRules {
-        FaultRules { rules: rules.into_iter().map(|rule| (rule, Tally::default())).collect() }
+        FaultRules { rules: rules.into_iter().map(|rule| (rule, RuleCount::default())).collect() }
     }
 
     /// Adds a rule, which counts from now on.
     pub fn add(&mut self, rule: FaultRule) {
-        self.rules.push((rule, Tally::default()));
+        self.rules.push((rule, RuleCount::default()));
     }
 
     /// Takes all rules away.
@@ -137,7 +137,7 @@ impl FaultRules {
     }
 
     /// The rules in their order and what each has done.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = (&FaultRule, Tally)> {
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = (&FaultRule, RuleCount)> {
         self.rules.iter().map(|(rule, tally)| (rule, *tally))
     }
 
@@ -159,6 +159,8 @@ impl FaultRules {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::data::ron_options;
     use crate::ids::Team;
@@ -167,8 +169,8 @@ mod tests {
         RobotId::new(Team::Home, number)
     }
 
-    fn packet(kind: MessageKind, from: u8, to: u8) -> Packet {
-        Packet { kind, from: home(from), to: home(to), bytes: 10, distance: 1.0 }
+    fn packet(kind: DataType, from: u8, to: u8) -> Packet {
+        Packet { kind, from: home(from), to: home(to), bytes: Arc::new([0; 10]) }
     }
 
     fn rule(text: &str) -> FaultRule {
@@ -183,32 +185,32 @@ mod tests {
     fn the_second_ackswap_of_one_robot_is_dropped_and_nothing_else() {
         let mut rules = rules(&[r#"(kind: AckSwap, from: "home 2", which: Nth(2), act: Drop)"#]);
         let mut acts = |kind, from| rules.apply(&packet(kind, from, 0), 0.0).to_vec();
-        assert_eq!(acts(MessageKind::AckSwap, 2), []);
-        assert_eq!(acts(MessageKind::AckLock, 2), []);
-        assert_eq!(acts(MessageKind::AckSwap, 1), []);
-        assert_eq!(acts(MessageKind::AckSwap, 2), [Act::Drop]);
-        assert_eq!(acts(MessageKind::AckSwap, 2), []);
-        assert_eq!(rules.iter().next().unwrap().1, Tally { counted: 3, acted: 1 });
+        assert_eq!(acts(DataType::ACK_SWAP, 2), []);
+        assert_eq!(acts(DataType::ACK_LOCK, 2), []);
+        assert_eq!(acts(DataType::ACK_SWAP, 1), []);
+        assert_eq!(acts(DataType::ACK_SWAP, 2), [Act::Drop]);
+        assert_eq!(acts(DataType::ACK_SWAP, 2), []);
+        assert_eq!(rules.iter().next().unwrap().1, RuleCount { counted: 3, acted: 1 });
     }
 
     #[test]
     fn the_first_lock_is_delayed() {
         let mut rules = rules(&["(kind: Lock, which: First, act: Delay(1.5))"]);
-        assert_eq!(rules.apply(&packet(MessageKind::Lock, 0, 1), 0.0).to_vec(), [Act::Delay(1.5)]);
-        assert!(rules.apply(&packet(MessageKind::Lock, 0, 1), 0.0).is_empty());
+        assert_eq!(rules.apply(&packet(DataType::LOCK, 0, 1), 0.0).to_vec(), [Act::Delay(1.5)]);
+        assert!(rules.apply(&packet(DataType::LOCK, 0, 1), 0.0).is_empty());
     }
 
     #[test]
     fn a_message_to_three_robots_counts_three_times() {
         let mut rules = rules(&["(kind: Lock, which: Nth(2), act: Drop)"]);
-        let hit = [1, 2, 3].map(|to| !rules.apply(&packet(MessageKind::Lock, 0, to), 0.0).is_empty());
+        let hit = [1, 2, 3].map(|to| !rules.apply(&packet(DataType::LOCK, 0, to), 0.0).is_empty());
         assert_eq!(hit, [false, true, false]);
     }
 
     #[test]
     fn a_receiver_and_all_from_a_number_on_can_be_meant() {
         let mut rules = rules(&[r#"(to: "home 3", which: From(2), act: Duplicate(0.2))"#]);
-        let mut hit = |to| !rules.apply(&packet(MessageKind::Position, 0, to), 0.0).is_empty();
+        let mut hit = |to| !rules.apply(&packet(DataType::POSITION, 0, to), 0.0).is_empty();
         assert_eq!([hit(3), hit(1), hit(3), hit(3)], [false, false, true, true]);
     }
 
@@ -216,7 +218,7 @@ mod tests {
     fn packets_outside_the_time_of_a_rule_are_not_counted() {
         let mut rules = rules(&["(between: (10.0, 12.0), which: First, act: Drop)"]);
         let times = [9.9, 12.0, 10.0, 11.0];
-        let hit = times.map(|now| !rules.apply(&packet(MessageKind::Swap, 0, 1), now).is_empty());
+        let hit = times.map(|now| !rules.apply(&packet(DataType::SWAP, 0, 1), now).is_empty());
         assert_eq!(hit, [false, false, true, false]);
     }
 
@@ -224,7 +226,7 @@ mod tests {
     fn every_rule_counts_for_itself() {
         let mut rules =
             rules(&["(act: Drop, which: First)", "(act: Delay(1.0), which: Nth(2))", "(act: Delay(2.0))"]);
-        let mut acts = || rules.apply(&packet(MessageKind::Values, 0, 1), 0.0).to_vec();
+        let mut acts = || rules.apply(&packet(DataType::VALUES, 0, 1), 0.0).to_vec();
         assert_eq!(acts(), [Act::Drop, Act::Delay(2.0)]);
         assert_eq!(acts(), [Act::Delay(1.0), Act::Delay(2.0)]);
     }
@@ -232,20 +234,20 @@ mod tests {
     #[test]
     fn a_rule_that_is_added_counts_from_then_on() {
         let mut rules = rules(&["(act: Drop)"]);
-        rules.apply(&packet(MessageKind::Goalie, 0, 1), 0.0);
+        rules.apply(&packet(DataType::GOALIE_NEWS, 0, 1), 0.0);
         rules.add(rule("(which: First, act: Delay(1.0))"));
         assert_eq!(
-            rules.apply(&packet(MessageKind::Goalie, 0, 1), 0.0).to_vec(),
+            rules.apply(&packet(DataType::GOALIE_NEWS, 0, 1), 0.0).to_vec(),
             [Act::Drop, Act::Delay(1.0)]
         );
         rules.clear();
-        assert!(rules.is_empty() && rules.apply(&packet(MessageKind::Goalie, 0, 1), 0.0).is_empty());
+        assert!(rules.is_empty() && rules.apply(&packet(DataType::GOALIE_NEWS, 0, 1), 0.0).is_empty());
     }
 
     #[test]
     fn a_rule_reads_back_as_it_was_written_with_its_robots_as_text() {
         let written = FaultRule {
-            kind: Some(MessageKind::HaveBall),
+            kind: Some(DataType::HAVE_BALL),
             from: Some(home(2)),
             to: None,
             between: Some((1.0, 2.0)),

@@ -2,13 +2,10 @@
 //! the Transmit stage it puts others on air. A datagram in flight is an entity.
 
 mod channel;
-mod conditions;
-mod counters;
-mod counts;
 mod faults;
-mod log;
-mod packet;
+mod interference;
 mod preset;
+mod record;
 #[cfg(test)]
 mod tests;
 
@@ -18,18 +15,15 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-pub use channel::{Channel, Fate, Loss};
-pub use conditions::{Conditions, Partition};
-pub use counters::{LinkCounters, Traffic};
-pub use counts::MessageCounts;
+pub use channel::{Channel, Delivery, Loss};
 pub use faults::{FaultRule, FaultRules};
-pub use log::{Outcome, RadioLog, Transmission};
-pub use packet::Packet;
+pub use interference::{Interference, Partition};
 pub use preset::Radio;
+pub use record::{LinkCounters, RadioRecord, Transmission, TransmissionState};
 
 use crate::clock::Clock;
-use crate::comms::messages::MessageKind;
-use crate::comms::tcm::{Datagram, Incoming, OnAir, TcmSystems, as_robot};
+use crate::comms::tcm::fragments::Header;
+use crate::comms::tcm::{DataType, Datagram, Incoming, OnAir, TcmSystems};
 use crate::geometry::Pose;
 use crate::ids::{MatchEntity, RobotId};
 use crate::robot::Robot;
@@ -45,121 +39,102 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RadioSystems;
 
-/// On a message in flight: all that the radio knows of it.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
-#[component(immutable)]
-pub struct Envelope {
-    /// Counts the messages of a match, per recipient. A copy has its original's.
-    pub id: u64,
-    pub kind: MessageKind,
+/// A datagram from one robot to one other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Packet {
+    /// What the message is about of which it brings a piece.
+    pub kind: DataType,
     pub from: RobotId,
     pub to: RobotId,
-    /// The tick in which it was sent.
-    pub sent: u64,
+    pub bytes: Arc<[u8]>,
+}
+
+impl Packet {
+    /// The packet that a datagram is; `None` if it is for a computer, or none of the TCM.
+    pub fn of(datagram: &Datagram) -> Option<Packet> {
+        let (header, _) = Header::read(&datagram.bytes).ok()?;
+        let (from, to) = (datagram.from, datagram.to.robot()?);
+        Some(Packet { kind: header.data_type, from, to, bytes: datagram.bytes.clone() })
+    }
+}
+
+/// A packet, or a second copy of it, on its way.
+#[derive(Component, Clone, Debug, PartialEq)]
+#[component(immutable)]
+pub struct InFlight {
+    /// That of its [`Transmission`].
+    pub id: u64,
+    pub packet: Packet,
     /// The tick in which it arrives.
     pub due: u64,
     /// It takes longer than the radio's ordinary delay.
     pub late: bool,
 }
 
-/// On a message in flight: the datagram.
-#[derive(Component, Clone, Debug, PartialEq)]
-#[component(immutable)]
-pub struct Payload(pub Arc<[u8]>);
-
-/// The state of the radio in a match: what is under way, and the counts.
+/// The radio of a match: all that decides which packets arrive, and the record of them.
 #[derive(SystemParam)]
-pub struct Air<'w> {
+pub(crate) struct RadioState<'w> {
     channel: ResMut<'w, Channel>,
-    conditions: Res<'w, Conditions>,
+    interference: Res<'w, Interference>,
     faults: ResMut<'w, FaultRules>,
-    traffic: ResMut<'w, Traffic>,
-    counts: ResMut<'w, MessageCounts>,
-    log: ResMut<'w, RadioLog>,
+    record: ResMut<'w, RadioRecord>,
 }
 
-impl Air<'_> {
-    /// Puts one packet on air: what the channel lets through becomes messages in flight.
-    fn send(&mut self, packet: &Packet, datagram: &Datagram, clock: &Clock, commands: &mut Commands) {
-        let fate = self.channel.send(packet, &self.conditions, &mut self.faults, clock);
-        self.traffic.send(packet, &fate);
-        self.counts.count_sent(packet.kind, packet.from, packet.to);
-        let id = self.log.sent(packet, datagram.sequence, &fate, clock.tick);
-        for copy in &fate.copies {
-            commands.spawn((
-                Envelope {
-                    id,
-                    kind: packet.kind,
-                    from: packet.from,
-                    to: packet.to,
-                    sent: clock.tick,
-                    due: copy.due,
-                    late: copy.late,
-                },
-                Payload(datagram.bytes.clone()),
-                MatchEntity,
-            ));
+impl RadioState<'_> {
+    /// Puts a packet on air over so many metres: what the channel lets through is in flight then.
+    fn send(&mut self, packet: Packet, distance: f32, clock: &Clock, commands: &mut Commands) {
+        let delivery = self.channel.send(&packet, distance, &self.interference, &mut self.faults, clock);
+        let id = self.record.sent(&packet, &delivery, clock.tick);
+        for arrival in delivery.arrivals {
+            let in_flight = InFlight { id, packet: packet.clone(), due: arrival.due, late: arrival.late };
+            commands.spawn((in_flight, MatchEntity));
         }
-    }
-
-    /// A mute robot's packet.
-    fn stifle(&mut self, packet: &Packet, datagram: &Datagram, clock: &Clock) {
-        let fate = Fate::lost(Loss::Mute);
-        self.traffic.send(packet, &fate);
-        self.log.sent(packet, datagram.sequence, &fate, clock.tick);
     }
 }
 
 pub(crate) fn deliver_datagrams(
     clock: Res<Clock>,
     mut commands: Commands,
-    (mut traffic, mut counts, mut log): (ResMut<Traffic>, ResMut<MessageCounts>, ResMut<RadioLog>),
+    mut record: ResMut<RadioRecord>,
     mut incoming: ResMut<Incoming>,
-    in_flight: Query<(Entity, &Envelope, &Payload)>,
+    in_flight: Query<(Entity, &InFlight)>,
     robots: Query<(&RobotId, &Robot)>,
 ) {
-    let due = in_flight.iter().filter(|(_, envelope, _)| envelope.due <= clock.tick);
+    let due = in_flight.iter().filter(|(_, in_flight)| in_flight.due <= clock.tick);
     let mut due: SmallVec<[_; 8]> = due.collect();
-    due.sort_unstable_by_key(|(_, envelope, _)| (envelope.due, envelope.id));
-    for (entity, envelope, payload) in due {
+    due.sort_unstable_by_key(|(_, in_flight)| (in_flight.due, in_flight.id));
+    for (entity, InFlight { id, packet, .. }) in due {
         commands.entity(entity).despawn();
-        let to = robots.iter().find(|(id, _)| **id == envelope.to);
-        if !to.is_some_and(|(_, robot)| robot.condition.hears()) {
-            traffic.lose(envelope.from, envelope.to, Loss::Deaf);
-            log.lost(envelope.id, Loss::Deaf);
-            continue;
+        let to = robots.iter().find(|(id, _)| **id == packet.to);
+        if to.is_some_and(|(_, robot)| robot.condition.hears()) {
+            record.delivered(*id, packet, clock.tick);
+            incoming.0.push((packet.to, packet.bytes.clone()));
+        } else {
+            record.lost(*id, packet, Loss::Deaf);
         }
-        traffic.deliver(envelope.from, envelope.to);
-        counts.count_delivered(envelope.kind, envelope.from, envelope.to);
-        log.arrived(envelope.id, clock.tick);
-        incoming.0.push((envelope.to, payload.0.clone()));
     }
 }
 
 pub(crate) fn transmit_datagrams(
     clock: Res<Clock>,
     mut on_air: ResMut<OnAir>,
-    mut air: Air,
+    mut radio: RadioState,
     mut commands: Commands,
     robots: Query<(&RobotId, &Robot, &Pose)>,
 ) {
-    air.log.forget(&clock);
+    radio.record.forget(&clock);
     for datagram in on_air.0.drain(..) {
         let robot = |wanted: RobotId| robots.iter().find(|(id, ..)| **id == wanted);
         // Computers have no antenna in a simulated match.
-        let Some((to, _, place)) = as_robot(datagram.to).and_then(robot) else { continue };
-        let Some((from, sender, pose)) = robot(datagram.from) else { continue };
-        let packet = Packet {
-            kind: datagram.kind,
-            from: *from,
-            to: *to,
-            bytes: datagram.bytes.len(),
-            distance: pose.position.distance(place.position),
+        let Some(packet) = Packet::of(&datagram) else { continue };
+        let (Some((_, sender, from)), Some((.., to))) = (robot(packet.from), robot(packet.to)) else {
+            continue;
         };
         if sender.condition.mute {
-            air.stifle(&packet, &datagram, &clock);
+            radio.record.drop_muted(&packet, clock.tick);
         } else {
-            air.send(&packet, &datagram, &clock, &mut commands);
+            let distance = from.position.distance(to.position);
+            radio.send(packet, distance, &clock, &mut commands);
         }
     }
 }

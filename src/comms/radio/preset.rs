@@ -86,51 +86,6 @@ pub enum SharedBy {
 }
 
 impl LossModel {
-    /// Loses everything while bad and nothing while good: this share of the messages, in bursts of this mean length,
-    /// 1 or more. Short bursts cannot lose a large share; the bursts are then longer.
-    pub fn bursts(mean_loss: f32, mean_burst: f32) -> LossModel {
-        if mean_loss <= 0.0 {
-            return LossModel::None;
-        }
-        let odds = mean_loss / (1.0 - mean_loss);
-        if !odds.is_finite() {
-            return LossModel::Independent(1.0);
-        }
-        let to_good = 1.0 / mean_burst.max(1.0).max(odds);
-        LossModel::GilbertElliott { to_bad: to_good * odds, to_good, loss_in_good: 0.0, loss_in_bad: 1.0 }
-    }
-
-    /// The share of the messages that is lost in the long run.
-    pub fn mean_loss(&self) -> f32 {
-        match *self {
-            LossModel::None => 0.0,
-            LossModel::Independent(chance) => chance,
-            LossModel::GilbertElliott { loss_in_good, loss_in_bad, .. } => {
-                let bad = self.bad_share();
-                bad * loss_in_bad + (1.0 - bad) * loss_in_good
-            }
-        }
-    }
-
-    /// The mean number of messages that are lost in a row: 0 if none is ever lost, infinite if all are.
-    pub fn mean_burst(&self) -> f32 {
-        let lost = self.mean_loss();
-        if lost <= 0.0 {
-            return 0.0;
-        }
-        // The chance that two messages in a row are lost.
-        let both = match *self {
-            LossModel::None | LossModel::Independent(_) => lost * lost,
-            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => {
-                let bad = self.bad_share();
-                let after_bad = (1.0 - to_good) * loss_in_bad + to_good * loss_in_good;
-                let after_good = (1.0 - to_bad) * loss_in_good + to_bad * loss_in_bad;
-                bad * loss_in_bad * after_bad + (1.0 - bad) * loss_in_good * after_good
-            }
-        };
-        lost / (lost - both).max(0.0)
-    }
-
     /// Whether the next message of a link is lost. `bad` is the link's state; the two numbers are fresh and uniform in
     /// [0, 1), one for the link's change and one for the message.
     pub(super) fn loses(&self, bad: &mut bool, change: f32, message: f32) -> bool {
@@ -141,14 +96,6 @@ impl LossModel {
                 *bad = if *bad { change >= to_good } else { change < to_bad };
                 message < if *bad { loss_in_bad } else { loss_in_good }
             }
-        }
-    }
-
-    /// The share of its messages for which a link is bad; a link that never turns bad never is.
-    fn bad_share(&self) -> f32 {
-        match *self {
-            LossModel::GilbertElliott { to_bad, to_good, .. } if to_bad > 0.0 => to_bad / (to_bad + to_good),
-            _ => 0.0,
         }
     }
 }
@@ -189,6 +136,49 @@ impl Radio {
             let late = self.late.filter(|late| late.max < late.min)?;
             Some(("late.max".into(), format!("must be at least late.min, {}, not {}", late.min, late.max)))
         })
+    }
+}
+
+/// What a model promises, for the tests to hold it to.
+#[cfg(test)]
+impl LossModel {
+    /// The share of the messages that is lost in the long run.
+    pub(super) fn mean_loss(&self) -> f32 {
+        match *self {
+            LossModel::None => 0.0,
+            LossModel::Independent(chance) => chance,
+            LossModel::GilbertElliott { loss_in_good, loss_in_bad, .. } => {
+                let bad = self.bad_share();
+                bad * loss_in_bad + (1.0 - bad) * loss_in_good
+            }
+        }
+    }
+
+    /// The mean number of messages that are lost in a row: 0 if none is ever lost, infinite if all are.
+    pub(super) fn mean_burst(&self) -> f32 {
+        let lost = self.mean_loss();
+        if lost <= 0.0 {
+            return 0.0;
+        }
+        // The chance that two messages in a row are lost.
+        let both = match *self {
+            LossModel::None | LossModel::Independent(_) => lost * lost,
+            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => {
+                let bad = self.bad_share();
+                let after_bad = (1.0 - to_good) * loss_in_bad + to_good * loss_in_good;
+                let after_good = (1.0 - to_bad) * loss_in_good + to_bad * loss_in_bad;
+                bad * loss_in_bad * after_bad + (1.0 - bad) * loss_in_good * after_good
+            }
+        };
+        lost / (lost - both).max(0.0)
+    }
+
+    /// The share of its messages for which a link is bad; a link that never turns bad never is.
+    fn bad_share(&self) -> f32 {
+        match *self {
+            LossModel::GilbertElliott { to_bad, to_good, .. } if to_bad > 0.0 => to_bad / (to_bad + to_good),
+            _ => 0.0,
+        }
     }
 }
 
@@ -250,7 +240,7 @@ mod tests {
     fn a_preset_reads_back_as_it_was_written() {
         let budget = Budget { bytes_per_second: 100.0, burst: 50.0, shared_by: SharedBy::Sender };
         let radio =
-            Radio { loss: LossModel::bursts(0.2, 5.0), range: Some(6.0), budget: Some(budget), ..good() };
+            Radio { loss: LossModel::Independent(0.2), range: Some(6.0), budget: Some(budget), ..good() };
         assert_eq!(read(&ron_options().to_string(&radio).unwrap()), radio);
     }
 
@@ -297,23 +287,7 @@ mod tests {
         assert_eq!(model.mean_loss(), 0.1);
     }
 
-    #[test]
-    fn a_share_that_short_bursts_cannot_lose_makes_them_longer() {
-        let model = LossModel::bursts(0.9, 2.0);
-        assert!((model.mean_loss() - 0.9).abs() < 1e-4 && (model.mean_burst() - 9.0).abs() < 1e-2);
-        assert_eq!(LossModel::bursts(0.0, 5.0), LossModel::None);
-        assert_eq!(LossModel::bursts(1.0, 5.0).mean_loss(), 1.0);
-    }
-
     proptest! {
-        #[test]
-        fn bursts_have_the_asked_loss_and_length(loss in 0.01f32..0.5, burst in 1.0f32..40.0) {
-            let model = LossModel::bursts(loss, burst);
-            prop_assert!((model.mean_loss() - loss).abs() < 1e-4);
-            prop_assert!((model.mean_burst() / burst - 1.0).abs() < 2e-3);
-            prop_assert_eq!(Radio { loss: model, ..good() }.fault(), None);
-        }
-
         #[test]
         fn a_model_that_loses_as_much_in_both_states_is_independent(
             to_bad in 0.01f32..1.0,

@@ -1,258 +1,58 @@
-//! The proxy between modules and the TCM (TeamChaos, section 3, the TcmClient): it stores what modules want to send, in one
-//! bounded queue for each, and hands it over when the TCM is ready for more.
+//! Between a robot's modules and its TCM: the client that they put data into.
 
-use std::collections::{BTreeMap, VecDeque};
-use std::ops::Bound;
+use bevy::prelude::*;
 
-use serde::{Deserialize, Serialize};
+use super::data::{Data, TypeInfo};
+use super::external_message::{DataType, Module, Peer};
+use super::queues::{QueueCounters, QueueRule, Queues};
+use crate::ids::{PlayerNumber, RobotId};
 
-use super::external_message::Module;
-
-/// How long the queue of a module may become.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct QueueRule {
-    /// Items that it holds at most. With 0 every item is dropped.
-    pub capacity: usize,
-    pub when_full: WhenFull,
+/// A robot's proxy of the TCM: it keeps what modules want to say until the TCM is ready for it.
+#[derive(Component, Clone, Debug)]
+pub struct TcmClient {
+    team: u8,
+    pub(super) queues: Queues<Outgoing>,
+    /// What found no room in its queue, until it is counted.
+    pub(super) dropped: Vec<(Module, DataType)>,
 }
 
-/// What goes when an item finds a queue full.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum WhenFull {
-    /// What has waited longest: for news, of which the latest counts.
-    DropOldest,
-    /// The item itself: for pieces of something, of which the first are worth nothing without the rest.
-    DropNewest,
-}
-
-/// One queue for each module, in the order of the modules.
+/// Data that wait to be sent.
 #[derive(Clone, Debug)]
-pub struct Queues<T> {
-    rule: QueueRule,
-    queues: BTreeMap<Module, Queue<T>>,
-    /// The module that handed over the last item.
-    last: Option<Module>,
+pub(super) struct Outgoing {
+    pub to: Peer,
+    pub known: &'static TypeInfo,
+    pub data: Vec<u8>,
 }
 
-/// Counts of a module's items. Put in = handed over + dropped + waiting.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct QueueCounters {
-    pub put_in: u64,
-    pub handed_over: u64,
-    pub dropped: u64,
-}
-
-#[derive(Clone, Debug)]
-struct Queue<T> {
-    rule: QueueRule,
-    items: VecDeque<T>,
-    counters: QueueCounters,
-}
-
-/// Room for 32 items, of which the latest count.
-impl Default for QueueRule {
-    fn default() -> QueueRule {
-        QueueRule { capacity: 32, when_full: WhenFull::DropOldest }
-    }
-}
-
-impl<T> Queues<T> {
-    /// Queues that follow `rule` unless [`Queues::set_rule`] says otherwise.
-    pub fn new(rule: QueueRule) -> Queues<T> {
-        Queues { rule, queues: BTreeMap::new(), last: None }
+impl TcmClient {
+    pub fn new(robot: RobotId, rule: QueueRule) -> TcmClient {
+        TcmClient { team: robot.team as u8, queues: Queues::new(rule), dropped: Vec::new() }
     }
 
-    /// Puts another rule in force for one module. What is too much for it is dropped at once and returned, oldest first.
-    pub fn set_rule(&mut self, module: Module, rule: QueueRule) -> Vec<T> {
-        let queue = self.queue(module);
-        queue.rule = rule;
-        let excess = queue.items.len().saturating_sub(rule.capacity);
-        queue.counters.dropped += excess as u64;
-        match rule.when_full {
-            WhenFull::DropOldest => queue.items.drain(..excess).collect(),
-            WhenFull::DropNewest => queue.items.split_off(queue.items.len() - excess).into(),
-        }
+    /// To every team mate, and to the computers that listen.
+    pub fn broadcast<T: Data>(&mut self, data: &T) {
+        self.post(Peer::Team(self.team), data);
     }
 
-    /// Puts an item at the end of its module's queue. Returns what was dropped for it: the queue's oldest item, or the item
-    /// itself.
-    pub fn push(&mut self, module: Module, item: T) -> Option<T> {
-        let queue = self.queue(module);
-        queue.counters.put_in += 1;
-        let room = queue.items.len() < queue.rule.capacity;
-        let dropped = match queue.rule.when_full {
-            _ if room => None,
-            WhenFull::DropOldest if queue.rule.capacity > 0 => queue.items.pop_front(),
-            WhenFull::DropOldest | WhenFull::DropNewest => {
-                queue.counters.dropped += 1;
-                return Some(item);
-            }
-        };
-        queue.counters.dropped += u64::from(dropped.is_some());
-        queue.items.push_back(item);
-        dropped
+    /// To one team mate.
+    pub fn send<T: Data>(&mut self, to: PlayerNumber, data: &T) {
+        self.post(Peer::Robot { team: self.team, number: to }, data);
     }
 
-    /// Hands over up to `most` items: one of each module that has any, in the order of the modules, then again, beginning
-    /// after the module that handed over the last one before. Items of a module keep their order.
-    pub fn take(&mut self, most: usize) -> Vec<T> {
-        let mut taken = Vec::with_capacity(most.min(self.len()));
-        while taken.len() < most
-            && let Some((module, queue)) = self.after_last()
-            && let Some(item) = queue.items.pop_front()
-        {
-            queue.counters.handed_over += 1;
-            taken.push(item);
-            self.last = Some(module);
-        }
-        taken
+    /// To any peer.
+    pub fn post<T: Data>(&mut self, to: Peer, data: &T) {
+        let (known, data) = data.serialise();
+        let dropped = self.queues.push(known.module, Outgoing { to, known, data });
+        self.dropped.extend(dropped.map(|outgoing| (outgoing.known.module, outgoing.known.number)));
     }
 
-    /// Items that wait, of all modules.
-    pub fn len(&self) -> usize {
-        self.queues.values().map(|queue| queue.items.len()).sum()
+    /// Forgets what waits, as when the robot is switched off.
+    pub fn clear(&mut self) {
+        self.queues.take(usize::MAX);
     }
 
-    /// Whether nothing waits.
-    pub fn is_empty(&self) -> bool {
-        self.queues.values().all(|queue| queue.items.is_empty())
-    }
-
-    /// Items of one module that wait.
-    pub fn waiting(&self, module: Module) -> usize {
-        self.queues.get(&module).map_or(0, |queue| queue.items.len())
-    }
-
-    /// One module; all zero if it never put anything in.
-    pub fn counters(&self, module: Module) -> QueueCounters {
-        self.queues.get(&module).map(|queue| queue.counters).unwrap_or_default()
-    }
-
-    /// The modules that have a queue, how many items wait in it, and its counters.
+    /// The queue of each module: items that wait, and its counters.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = (Module, usize, QueueCounters)> {
-        self.queues.iter().map(|(&module, queue)| (module, queue.items.len(), queue.counters))
-    }
-
-    fn queue(&mut self, module: Module) -> &mut Queue<T> {
-        let rule = self.rule;
-        self.queues.entry(module).or_insert_with(|| Queue {
-            rule,
-            items: VecDeque::new(),
-            counters: QueueCounters::default(),
-        })
-    }
-
-    /// The next queue with an item, after that of the last module and round to it.
-    fn after_last(&mut self) -> Option<(Module, &mut Queue<T>)> {
-        let waits = |(&module, queue): (&Module, &Queue<T>)| (!queue.items.is_empty()).then_some(module);
-        let from = self.last.map_or(Bound::Unbounded, Bound::Excluded);
-        let after = self.queues.range((from, Bound::Unbounded)).find_map(waits);
-        let module = after.or_else(|| self.queues.iter().find_map(waits))?;
-        Some((module, self.queues.get_mut(&module)?))
-    }
-}
-
-impl<T> Default for Queues<T> {
-    fn default() -> Queues<T> {
-        Queues::new(QueueRule::default())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    const A: Module = Module(0);
-    const B: Module = Module(1);
-    const C: Module = Module(9);
-
-    fn rule(capacity: usize, when_full: WhenFull) -> QueueRule {
-        QueueRule { capacity, when_full }
-    }
-
-    #[test]
-    fn a_full_queue_drops_its_oldest_or_its_newest_item() {
-        let mut queues = Queues::new(rule(2, WhenFull::DropOldest));
-        assert_eq!([1, 2, 3].map(|item| queues.push(A, item)), [None, None, Some(1)]);
-        queues.set_rule(B, rule(2, WhenFull::DropNewest));
-        assert_eq!([4, 5, 6].map(|item| queues.push(B, item)), [None, None, Some(6)]);
-        assert_eq!(queues.take(9), [2, 4, 3, 5]);
-        let counters = QueueCounters { put_in: 3, handed_over: 2, dropped: 1 };
-        assert_eq!((queues.counters(A), queues.counters(B)), (counters, counters));
-        assert_eq!(queues.counters(C), QueueCounters::default());
-    }
-
-    #[test]
-    fn a_queue_without_room_drops_everything() {
-        for when_full in [WhenFull::DropOldest, WhenFull::DropNewest] {
-            let mut queues = Queues::new(rule(0, when_full));
-            assert_eq!(queues.push(A, 1), Some(1));
-            assert_eq!((queues.len(), queues.counters(A).dropped), (0, 1));
-        }
-    }
-
-    #[test]
-    fn a_shorter_queue_drops_what_is_too_much() {
-        let mut queues = Queues::new(rule(4, WhenFull::DropOldest));
-        for item in 0..4 {
-            queues.push(A, item);
-            queues.push(B, item);
-        }
-        assert_eq!(queues.set_rule(A, rule(1, WhenFull::DropOldest)), [0, 1, 2]);
-        assert_eq!(queues.set_rule(B, rule(1, WhenFull::DropNewest)), [1, 2, 3]);
-        assert_eq!(queues.take(2), [3, 0]);
-    }
-
-    #[test]
-    fn modules_take_turns_also_from_one_call_to_the_next() {
-        let mut queues = Queues::default();
-        for item in 0..3 {
-            queues.push(A, ('a', item));
-            queues.push(C, ('c', item));
-        }
-        queues.push(B, ('b', 0));
-        let taken: Vec<_> = (0..4).flat_map(|_| queues.take(2)).collect();
-        assert_eq!(taken, [('a', 0), ('b', 0), ('c', 0), ('a', 1), ('c', 1), ('a', 2), ('c', 2)]);
-        assert!(queues.is_empty());
-    }
-
-    #[test]
-    fn a_rule_is_read_from_a_file() {
-        let text = "(capacity: 3, when_full: DropNewest)";
-        assert_eq!(ron::from_str::<QueueRule>(text).unwrap(), rule(3, WhenFull::DropNewest));
-    }
-
-    proptest! {
-        #[test]
-        fn nothing_is_lost_uncounted_reordered_or_starved(
-            steps in prop::collection::vec((0u8..4, 0usize..3), 0..200),
-            capacity in 0usize..6,
-            oldest: bool,
-        ) {
-            let when_full = if oldest { WhenFull::DropOldest } else { WhenFull::DropNewest };
-            let mut queues = Queues::new(rule(capacity, when_full));
-            let mut taken = Vec::new();
-            for (number, &(module, most)) in steps.iter().enumerate() {
-                queues.push(Module(module), (module, number));
-                taken.extend(queues.take(most));
-                prop_assert!(queues.rows().all(|(_, waiting, _)| waiting <= capacity));
-            }
-            let waiting: Vec<_> = queues.rows().filter(|row| row.1 > 0).map(|row| row.0).collect();
-            let round = queues.take(waiting.len());
-            let mut served: Vec<_> = round.iter().map(|&(module, _)| Module(module)).collect();
-            served.sort();
-            prop_assert_eq!(served, waiting);
-            taken.extend(round);
-            for module in 0..4 {
-                let numbers = taken.iter().filter(|item| item.0 == module).map(|item| item.1);
-                prop_assert!(numbers.is_sorted());
-            }
-            for (_, waiting, counters) in queues.rows() {
-                prop_assert_eq!(counters.put_in, counters.handed_over + counters.dropped + waiting as u64);
-            }
-        }
+        self.queues.rows()
     }
 }

@@ -1,5 +1,5 @@
-//! What modules exchange, and the table of the types that are known (TeamChaos, section 3): a module that sends or
-//! receives a type says how it is serialised and unserialised; the TCM does the rest.
+//! What modules exchange, and the table of the types that are known (TeamChaos, section 3): a module that wants to send or
+//! receive a type says how it is serialised and unserialised; the TCM does the rest.
 
 use std::collections::BTreeMap;
 
@@ -7,31 +7,73 @@ use bevy::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::external_message::{self, DataType, Module};
-use super::kind::MessageKind;
-use crate::protocol::role_swap::Sequence;
+use super::external_message::{Address, DataType, ExternalMessage, Module, Peer};
 
-/// A type of data that modules exchange.
+/// Data that modules exchange: one data type, or several that are one type in the program. [`data!`](crate::comms::tcm::data)
+/// writes the implementation.
 pub trait Data: Clone + Send + Sync + 'static {
-    const TYPE: DataType;
-    /// The module that sends it.
-    const MODULE: Module;
+    /// The data types that it may be.
+    const TYPES: &'static [TypeInfo];
+
+    /// Which of them it is, and its bytes.
+    fn serialise(&self) -> (&'static TypeInfo, Vec<u8>);
+
+    /// The data in these bytes; nothing, if they are none of this type.
+    fn unserialise(data_type: DataType, bytes: &[u8]) -> Option<Self>;
+}
+
+/// What is to know of a data type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TypeInfo {
+    /// On the wire.
+    pub number: DataType,
     /// As people call it.
-    const NAME: &'static str;
+    pub name: &'static str,
+    /// The module that sends it.
+    pub module: Module,
+}
 
-    fn serialise(&self) -> Vec<u8>;
+/// Makes a type [`Data`] in the format of Touchline's own types, postcard. Each row is a data type: its number, name and
+/// module, the values that it stands for, what is written of them, and what a value must satisfy when it is read.
+macro_rules! data {
+    ($data:ty {
+        $($number:path, $name:literal, $module:expr; ($($value:tt)+) = $written:tt: $type:ty $(, if $is_sound:expr)?;)+
+    }) => {
+        impl $crate::comms::tcm::Data for $data {
+            const TYPES: &'static [$crate::comms::tcm::TypeInfo] =
+                &[$($crate::comms::tcm::TypeInfo { number: $number, name: $name, module: $module }),+];
 
-    /// The data in these bytes; nothing, if they are none.
-    fn unserialise(bytes: &[u8]) -> Option<Self>;
+            fn serialise(&self) -> (&'static $crate::comms::tcm::TypeInfo, Vec<u8>) {
+                use $crate::comms::tcm::{TypeInfo, to_postcard};
+                match self {
+                    $($($value)+ => {
+                        (&TypeInfo { number: $number, name: $name, module: $module }, to_postcard(&$written))
+                    })+
+                }
+            }
 
-    /// What fault rules and filters of the radio take it for.
-    fn kind(&self) -> MessageKind {
-        MessageKind::Other
-    }
+            fn unserialise(data_type: $crate::comms::tcm::DataType, bytes: &[u8]) -> Option<$data> {
+                match data_type {
+                    $($number => {
+                        let read = $crate::comms::tcm::from_postcard::<$type>(bytes)?;
+                        $(let read = Some(read).filter($is_sound)?;)?
+                        let $written = read;
+                        Some($($value)+)
+                    })+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+pub(crate) use data;
 
-    /// The attempt of a role swap that it belongs to.
-    fn sequence(&self) -> Option<Sequence> {
-        None
+impl ExternalMessage {
+    /// What the module that sends such data says to the same module of another peer.
+    pub fn of<T: Data>(data: &T, from: Peer, to: Peer) -> ExternalMessage {
+        let (known, data) = data.serialise();
+        let address = |peer| Address { peer, module: known.module };
+        ExternalMessage { source: address(from), destination: address(to), data_type: known.number, data }
     }
 }
 
@@ -41,10 +83,10 @@ pub fn to_postcard(data: &impl Serialize) -> Vec<u8> {
     postcard::to_stdvec(data).unwrap_or_default()
 }
 
-/// The data in these bytes; nothing, if they are none from beginning to end, or none that is sound.
-pub fn from_postcard<T: DeserializeOwned>(bytes: &[u8], is_sound: impl Fn(&T) -> bool) -> Option<T> {
+/// The data in these bytes; nothing, if they are none from beginning to end.
+pub fn from_postcard<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
     let (data, rest) = postcard::take_from_bytes::<T>(bytes).ok()?;
-    (rest.is_empty() && is_sound(&data)).then_some(data)
+    rest.is_empty().then_some(data)
 }
 
 /// Triggered at a robot when data of a registered type have reached it: the paper's callback. Observe it to receive a type.
@@ -52,34 +94,31 @@ pub fn from_postcard<T: DeserializeOwned>(bytes: &[u8], is_sound: impl Fn(&T) ->
 pub struct Arrived<T: Data> {
     /// The robot.
     pub entity: Entity,
-    pub from: external_message::Entity,
+    pub from: Peer,
     pub data: T,
 }
 
-/// The types of data that somebody has registered; they outlast a match.
+/// The data types that somebody has registered; they outlast a match.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Registry(BTreeMap<DataType, Registered>);
 
-/// A registered type.
 #[derive(Clone, Copy, Debug)]
-pub struct Registered {
-    pub name: &'static str,
-    /// The module that sends it.
-    pub module: Module,
-    pub(super) deliver: Deliver,
+struct Registered {
+    info: &'static TypeInfo,
+    deliver: Deliver,
 }
 
-/// Unserialises the bytes and hands them to their observers; tells whether that was possible.
-type Deliver = fn(&mut Commands, Entity, external_message::Entity, &[u8]) -> bool;
+/// Unserialises the bytes and triggers [`Arrived`]; tells whether that was possible.
+pub(super) type Deliver = fn(&mut Commands, Entity, Peer, DataType, &[u8]) -> bool;
 
 impl Registry {
-    pub(super) fn get(&self, data_type: DataType) -> Option<&Registered> {
-        self.0.get(&data_type)
+    pub(super) fn get(&self, data_type: DataType) -> Option<Deliver> {
+        self.0.get(&data_type).map(|known| known.deliver)
     }
 
     /// In the order of their numbers.
-    pub fn types(&self) -> impl Iterator<Item = (DataType, &Registered)> {
-        self.0.iter().map(|(data_type, registered)| (*data_type, registered))
+    pub fn types(&self) -> impl Iterator<Item = &'static TypeInfo> {
+        self.0.values().map(|known| known.info)
     }
 }
 
@@ -91,12 +130,12 @@ pub trait RegisterData {
 
 impl RegisterData for App {
     fn register_data<T: Data>(&mut self) -> &mut App {
-        let deliver: Deliver = |commands, entity, from, bytes| {
-            let data = T::unserialise(bytes);
+        let deliver: Deliver = |commands, entity, from, data_type, bytes| {
+            let data = T::unserialise(data_type, bytes);
             data.map(|data| commands.trigger(Arrived { entity, from, data })).is_some()
         };
-        let registered = Registered { name: T::NAME, module: T::MODULE, deliver };
-        self.world_mut().get_resource_or_init::<Registry>().0.insert(T::TYPE, registered);
+        let mut registry = self.world_mut().get_resource_or_init::<Registry>();
+        registry.0.extend(T::TYPES.iter().map(|info| (info.number, Registered { info, deliver })));
         self
     }
 }

@@ -1,14 +1,16 @@
-//! The unit that entities exchange (TeamChaos, section 3): who sends it, from which module, to whom, and data of any type.
+//! The unit that peers exchange (TeamChaos, section 3): who sends it, from which module, to whom, and data of any type.
 
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// What a module of one entity says to a module of another. Its length is that of its data.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+use crate::ids::{RobotId, Team};
+
+/// What a module of one peer says to a module of another. Its length is that of its data.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ExternalMessage {
-    /// Never a group: see [`Entity::is_one`].
+    /// Never a group: see [`Peer::is_one`].
     pub source: Address,
     pub destination: Address,
     pub data_type: DataType,
@@ -16,10 +18,10 @@ pub struct ExternalMessage {
     pub data: Vec<u8>,
 }
 
-/// A module of an entity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+/// A module of a peer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Address {
-    pub entity: Entity,
+    pub peer: Peer,
     pub module: Module,
 }
 
@@ -29,7 +31,7 @@ pub struct Address {
 /// and away, 1, are `"team 2"` with the robots `"team 2 0"` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub enum Entity {
+pub enum Peer {
     Robot {
         /// 0 for home, 1 for away.
         team: u8,
@@ -44,81 +46,86 @@ pub enum Entity {
     Everybody,
 }
 
-/// A part of an entity's program that sends and receives messages. Touchline's own have names below; the numbers from
-/// [`Module::FIRST_FREE`] on belong to users.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+/// A part of a peer's program that sends and receives messages. The numbers from [`Module::FIRST_FREE`] on belong to users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Module(pub u8);
 
-/// What the data of a message are. Touchline's own types have names below; the numbers from [`DataType::FIRST_FREE`] on
-/// belong to users.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+/// What the data of a message are: the kind of the message. The numbers from [`DataType::FIRST_FREE`] on belong to users.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DataType(pub u16);
 
-/// A text that names no entity.
+/// A text that names no peer.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is nobody; write `home 2`, `away`, `computer 0` or `everybody`")]
-pub struct NotAnEntity(pub String);
+pub struct NotAPeer(pub String);
 
-impl Entity {
+/// The match itself, which tells robots in other processes what they sense. Messages to a team do not reach it.
+pub const HOST: Peer = Peer::Computer(255);
+
+impl Peer {
     /// Whether this is a robot or a computer, who can speak, and not a group of them.
     pub fn is_one(self) -> bool {
-        matches!(self, Entity::Robot { .. } | Entity::Computer(_))
+        matches!(self, Peer::Robot { .. } | Peer::Computer(_))
     }
 
     /// Whether a message to `self` is meant for `one`.
-    pub fn includes(self, one: Entity) -> bool {
+    pub fn includes(self, one: Peer) -> bool {
         match self {
-            Entity::Everybody => one.is_one(),
-            Entity::Team(mine) => matches!(one, Entity::Robot { team, .. } if team == mine),
-            Entity::Robot { .. } | Entity::Computer(_) => self == one,
+            Peer::Everybody => one.is_one(),
+            Peer::Team(mine) => matches!(one, Peer::Robot { team, .. } if team == mine),
+            Peer::Robot { .. } | Peer::Computer(_) => self == one,
+        }
+    }
+
+    /// The robot of home or away that this is.
+    pub fn robot(self) -> Option<RobotId> {
+        match self {
+            Peer::Robot { team, number } => {
+                Team::BOTH.get(usize::from(team)).map(|team| RobotId::new(*team, number))
+            }
+            _ => None,
         }
     }
 }
 
 impl Module {
-    pub const WORLD_MODEL: Module = Module(0);
-    pub const CLAIMS: Module = Module(1);
-    pub const GOALIE: Module = Module(2);
-    pub const ROLE_SWAP: Module = Module(3);
-    pub const POLICY: Module = Module(4);
-    pub const BALL_BOOKING: Module = Module(5);
-    pub const CHAOS_MANAGER: Module = Module(6);
-    pub const REMOTE_ROBOTS: Module = Module(7);
     pub const FIRST_FREE: Module = Module(128);
 }
 
 impl DataType {
-    pub const POSITION: DataType = DataType(1);
-    pub const HAVE_BALL: DataType = DataType(2);
-    pub const GOALIE_NEWS: DataType = DataType(3);
-    pub const ROLE_SWAP: DataType = DataType(4);
-    pub const VALUES: DataType = DataType(5);
-    pub const BOOK: DataType = DataType(6);
-    pub const BALL_REPORT: DataType = DataType(7);
-    pub const TEXT: DataType = DataType(8);
     pub const FIRST_FREE: DataType = DataType(1024);
 }
 
-impl fmt::Display for Entity {
+impl From<RobotId> for Peer {
+    fn from(robot: RobotId) -> Peer {
+        Peer::Robot { team: robot.team as u8, number: robot.number }
+    }
+}
+
+impl fmt::Display for Peer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Entity::Robot { team: 0, number } => write!(f, "home {number}"),
-            Entity::Robot { team: 1, number } => write!(f, "away {number}"),
-            Entity::Robot { team, number } => write!(f, "team {team} {number}"),
-            Entity::Computer(number) => write!(f, "computer {number}"),
-            Entity::Team(0) => f.write_str("home"),
-            Entity::Team(1) => f.write_str("away"),
-            Entity::Team(team) => write!(f, "team {team}"),
-            Entity::Everybody => f.write_str("everybody"),
+            Peer::Robot { team, number } => match self.robot() {
+                Some(robot) => robot.fmt(f),
+                None => write!(f, "team {team} {number}"),
+            },
+            Peer::Computer(number) => write!(f, "computer {number}"),
+            Peer::Team(0) => f.write_str("home"),
+            Peer::Team(1) => f.write_str("away"),
+            Peer::Team(team) => write!(f, "team {team}"),
+            Peer::Everybody => f.write_str("everybody"),
         }
     }
 }
 
 /// Reads what [`Display`](fmt::Display) writes, and also `home:2`, `home-2` or `Home2`.
-impl FromStr for Entity {
-    type Err = NotAnEntity;
+impl FromStr for Peer {
+    type Err = NotAPeer;
 
-    fn from_str(text: &str) -> Result<Entity, NotAnEntity> {
+    fn from_str(text: &str) -> Result<Peer, NotAPeer> {
+        if let Ok(robot) = text.trim().parse::<RobotId>() {
+            return Ok(robot.into());
+        }
         let lower = text.trim().to_ascii_lowercase();
         let (word, rest) =
             lower.split_at(lower.find(|c: char| !c.is_ascii_lowercase()).unwrap_or(lower.len()));
@@ -126,15 +133,13 @@ impl FromStr for Entity {
         let numbers: Option<Vec<u8>> =
             rest.split(separators).filter(|part| !part.is_empty()).map(number).collect();
         match (word, numbers.as_deref()) {
-            ("home", Some(&[])) => Ok(Entity::Team(0)),
-            ("home", Some(&[number])) => Ok(Entity::Robot { team: 0, number }),
-            ("away", Some(&[])) => Ok(Entity::Team(1)),
-            ("away", Some(&[number])) => Ok(Entity::Robot { team: 1, number }),
-            ("team", Some(&[team])) => Ok(Entity::Team(team)),
-            ("team", Some(&[team, number])) => Ok(Entity::Robot { team, number }),
-            ("computer", Some(&[number])) => Ok(Entity::Computer(number)),
-            ("everybody", Some(&[])) => Ok(Entity::Everybody),
-            _ => Err(NotAnEntity(text.to_owned())),
+            ("home", Some(&[])) => Ok(Peer::Team(0)),
+            ("away", Some(&[])) => Ok(Peer::Team(1)),
+            ("team", Some(&[team])) => Ok(Peer::Team(team)),
+            ("team", Some(&[team, number])) => Ok(Peer::Robot { team, number }),
+            ("computer", Some(&[number])) => Ok(Peer::Computer(number)),
+            ("everybody", Some(&[])) => Ok(Peer::Everybody),
+            _ => Err(NotAPeer(text.to_owned())),
         }
     }
 }
@@ -144,55 +149,23 @@ fn number(text: &str) -> Option<u8> {
     text.bytes().all(|byte| byte.is_ascii_digit()).then(|| text.parse().ok()).flatten()
 }
 
-impl TryFrom<String> for Entity {
-    type Error = NotAnEntity;
+impl TryFrom<String> for Peer {
+    type Error = NotAPeer;
 
-    fn try_from(text: String) -> Result<Entity, NotAnEntity> {
+    fn try_from(text: String) -> Result<Peer, NotAPeer> {
         text.parse()
     }
 }
 
-impl From<Entity> for String {
-    fn from(entity: Entity) -> String {
-        entity.to_string()
-    }
-}
-
-impl fmt::Display for Module {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match *self {
-            Module::WORLD_MODEL => "world model",
-            Module::CLAIMS => "claims",
-            Module::GOALIE => "goalie",
-            Module::ROLE_SWAP => "role swap",
-            Module::POLICY => "policy",
-            Module::BALL_BOOKING => "ball booking",
-            Module::CHAOS_MANAGER => "ChaosManager",
-            Module::REMOTE_ROBOTS => "remote robots",
-            Module(other) => return write!(f, "module {other}"),
-        })
-    }
-}
-
-impl fmt::Display for DataType {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match *self {
-            DataType::POSITION => "position",
-            DataType::HAVE_BALL => "have-ball",
-            DataType::GOALIE_NEWS => "goalie",
-            DataType::ROLE_SWAP => "role swap",
-            DataType::VALUES => "values",
-            DataType::BOOK => "book",
-            DataType::BALL_REPORT => "ball report",
-            DataType::TEXT => "text",
-            DataType(other) => return write!(f, "type {other}"),
-        })
+impl From<Peer> for String {
+    fn from(peer: Peer) -> String {
+        peer.to_string()
     }
 }
 
 impl fmt::Display for Address {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}, {}", self.entity, self.module)
+        write!(f, "{}, {}", self.peer, self.module)
     }
 }
 
@@ -202,32 +175,32 @@ mod tests {
 
     use super::*;
 
-    fn entity() -> impl Strategy<Value = Entity> {
+    fn peer() -> impl Strategy<Value = Peer> {
         prop_oneof![
-            any::<(u8, u8)>().prop_map(|(team, number)| Entity::Robot { team, number }),
-            any::<u8>().prop_map(Entity::Computer),
-            any::<u8>().prop_map(Entity::Team),
-            Just(Entity::Everybody),
+            any::<(u8, u8)>().prop_map(|(team, number)| Peer::Robot { team, number }),
+            any::<u8>().prop_map(Peer::Computer),
+            any::<u8>().prop_map(Peer::Team),
+            Just(Peer::Everybody),
         ]
     }
 
     #[test]
-    fn entities_are_written_and_read_as_people_write_them() {
+    fn peers_are_written_and_read_as_people_write_them() {
         let names = [
-            (Entity::Robot { team: 0, number: 2 }, "home 2"),
-            (Entity::Robot { team: 1, number: 1 }, "away 1"),
-            (Entity::Robot { team: 2, number: 5 }, "team 2 5"),
-            (Entity::Computer(0), "computer 0"),
-            (Entity::Team(0), "home"),
-            (Entity::Team(7), "team 7"),
-            (Entity::Everybody, "everybody"),
+            (Peer::Robot { team: 0, number: 2 }, "home 2"),
+            (Peer::Robot { team: 1, number: 1 }, "away 1"),
+            (Peer::Robot { team: 2, number: 5 }, "team 2 5"),
+            (Peer::Computer(0), "computer 0"),
+            (Peer::Team(0), "home"),
+            (Peer::Team(7), "team 7"),
+            (Peer::Everybody, "everybody"),
         ];
-        for (entity, name) in names {
-            assert_eq!(entity.to_string(), name);
-            assert_eq!(name.parse(), Ok(entity));
+        for (peer, name) in names {
+            assert_eq!(peer.to_string(), name);
+            assert_eq!(name.parse(), Ok(peer));
         }
         for text in ["away:3", "away-3", "Away3", " away 3 "] {
-            assert_eq!(text.parse(), Ok(Entity::Robot { team: 1, number: 3 }), "{text}");
+            assert_eq!(text.parse(), Ok(Peer::Robot { team: 1, number: 3 }), "{text}");
         }
     }
 
@@ -236,24 +209,24 @@ mod tests {
         for text in
             ["", "guest 1", "home 256", "home +1", "home 1 2", "computer", "everybody 1", "team", "höme 1"]
         {
-            assert_eq!(text.parse::<Entity>(), Err(NotAnEntity(text.to_owned())));
+            assert_eq!(text.parse::<Peer>(), Err(NotAPeer(text.to_owned())));
         }
     }
 
     #[test]
     fn a_message_to_a_group_is_meant_for_its_members_only() {
-        let (home, away) = (Entity::Robot { team: 0, number: 3 }, Entity::Robot { team: 1, number: 3 });
-        let computer = Entity::Computer(3);
-        let meant = |group: Entity| [home, away, computer].map(|one| group.includes(one));
-        assert_eq!(meant(Entity::Team(1)), [false, true, false]);
-        assert_eq!(meant(Entity::Everybody), [true, true, true]);
+        let (home, away) = (Peer::Robot { team: 0, number: 3 }, Peer::Robot { team: 1, number: 3 });
+        let computer = Peer::Computer(3);
+        let meant = |group: Peer| [home, away, computer].map(|one| group.includes(one));
+        assert_eq!(meant(Peer::Team(1)), [false, true, false]);
+        assert_eq!(meant(Peer::Everybody), [true, true, true]);
         assert_eq!(meant(home), [true, false, false]);
-        assert!(!Entity::Everybody.includes(Entity::Team(0)));
+        assert!(!Peer::Everybody.includes(Peer::Team(0)));
     }
 
     #[test]
     fn modules_and_types_without_a_name_are_shown_by_number() {
-        let address = Address { entity: Entity::Computer(1), module: Module::CHAOS_MANAGER };
+        let address = Address { peer: Peer::Computer(1), module: Module::CHAOS_MANAGER };
         assert_eq!(address.to_string(), "computer 1, ChaosManager");
         assert_eq!(
             (Module(200).to_string(), DataType(1024).to_string()),
@@ -263,10 +236,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_entity_reads_back_also_from_a_file(entity in entity()) {
-            prop_assert_eq!(entity.to_string().parse(), Ok(entity));
-            let written = ron::to_string(&entity).unwrap();
-            prop_assert_eq!(ron::from_str::<Entity>(&written).unwrap(), entity);
+        fn every_peer_reads_back_also_from_a_file(peer in peer()) {
+            prop_assert_eq!(peer.to_string().parse(), Ok(peer));
+            let written = ron::to_string(&peer).unwrap();
+            prop_assert_eq!(ron::from_str::<Peer>(&written).unwrap(), peer);
         }
     }
 }

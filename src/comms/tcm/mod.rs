@@ -2,17 +2,17 @@
 //!
 //! A module puts data into its robot's [`TcmClient`]. In the Transmit stage the TCM takes them, makes [`ExternalMessage`]s of
 //! them and cuts these into datagrams for a carrier: the simulated radio, or UDP. In the Deliver stage it puts arriving
-//! datagrams together again and hands them to the observers of their type. It keeps no connections and repeats nothing.
+//! datagrams together again and triggers [`Arrived`] for the types that are registered. It keeps no connections and repeats
+//! nothing.
 
 mod budget;
-pub mod client;
+mod client;
 pub mod counters;
 mod data;
 pub mod directory;
 pub mod external_message;
 pub mod fragments;
-mod kind;
-mod outgoing;
+pub mod queues;
 mod settings;
 #[cfg(test)]
 mod tests;
@@ -23,22 +23,20 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 pub use budget::{MessageBudgets, Spent};
-pub use data::{Arrived, Data, RegisterData, Registered, Registry, from_postcard, to_postcard};
+pub use client::TcmClient;
+pub(crate) use data::data;
+pub use data::{Arrived, Data, RegisterData, Registry, TypeInfo, from_postcard, to_postcard};
 pub use directory::Directory;
-pub use external_message::{Address, DataType, ExternalMessage, Module};
-pub use kind::MessageKind;
-pub use outgoing::TcmClient;
+pub use external_message::{Address, DataType, ExternalMessage, HOST, Module, Peer};
 pub use settings::TcmSettings;
 
 use crate::clock::Clock;
-use crate::ids::{RobotId, Team};
-use crate::protocol::role_swap::Sequence;
+use crate::ids::RobotId;
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
+use client::Outgoing;
 use counters::{Dropped, TypeCounters};
-use external_message::Entity as Party;
 use fragments::{Assembly, cut};
-use outgoing::Outgoing;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Registry>()
@@ -66,10 +64,7 @@ pub struct OnAir(pub Vec<Datagram>);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Datagram {
     pub from: RobotId,
-    pub to: Party,
-    /// What is in it, for the radio's fault rules, log and counters.
-    pub kind: MessageKind,
-    pub sequence: Option<Sequence>,
+    pub to: Peer,
     pub bytes: Arc<[u8]>,
 }
 
@@ -101,32 +96,15 @@ impl Tcm {
         }
     }
 
-    /// Counts messages from here on. A robot's program that restarts begins elsewhere.
+    /// Counts messages from here on: a program that restarts begins elsewhere.
     pub fn count_from(&mut self, counter: u32) {
         self.counter = counter;
     }
 }
 
-/// The match itself, which tells robots in other processes what they sense. Nobody's broadcasts reach it.
-pub const HOST: Party = Party::Computer(255);
-
-/// The entity of the TCM that a robot is.
-pub fn party(robot: RobotId) -> Party {
-    Party::Robot { team: robot.team as u8, number: robot.number }
-}
-
-/// The robot that an entity of the TCM is.
-pub fn as_robot(party: Party) -> Option<RobotId> {
-    match party {
-        Party::Robot { team: 0, number } => Some(RobotId::new(Team::Home, number)),
-        Party::Robot { team: 1, number } => Some(RobotId::new(Team::Away, number)),
-        _ => None,
-    }
-}
-
 type Listening<'a> = (Entity, &'a RobotId, &'a mut Tcm);
 
-/// Puts messages together and calls those who wait for their types.
+/// Puts messages together and delivers those of registered types.
 fn receive_messages(
     clock: Res<Clock>,
     registry: Res<Registry>,
@@ -141,11 +119,13 @@ fn receive_messages(
     for (to, datagram) in incoming.0.drain(..) {
         let robot = robots.iter_mut().find(|(_, id, ..)| **id == to);
         let Some((entity, id, mut tcm)) = robot else { continue };
-        let Some(message) = tcm.take_in(&datagram, party(*id), clock.tick) else { continue };
+        let Some(message) = tcm.take_in(&datagram, Peer::from(*id), clock.tick) else { continue };
         let (module, data_type) = (message.source.module, message.data_type);
         match registry.get(data_type) {
             None => tcm.counters.unknown(module, data_type),
-            Some(known) if (known.deliver)(&mut commands, entity, message.source.entity, &message.data) => {
+            Some(deliver)
+                if deliver(&mut commands, entity, message.source.peer, data_type, &message.data) =>
+            {
                 tcm.counters.received(module, data_type, message.data.len());
             }
             Some(_) => tcm.counters.not_unserialisable(module, data_type),
@@ -155,7 +135,7 @@ fn receive_messages(
 
 type Speaking<'a> = (&'a RobotId, Option<&'a Robot>, &'a mut TcmClient, &'a mut Tcm);
 
-/// Takes what the modules want to say and cuts it into datagrams, for each receiver.
+/// Takes what the modules want to say and cuts it into datagrams, one for each receiver.
 fn send_messages(
     directory: Res<Addresses>,
     mut budgets: Option<ResMut<MessageBudgets>>,
@@ -173,8 +153,7 @@ fn send_messages(
         for (module, data_type) in client.dropped.drain(..) {
             tcm.counters.queue_full(module, data_type);
         }
-        let takes = tcm.settings.takes;
-        for outgoing in client.queues.take(takes) {
+        for outgoing in client.queues.take(tcm.settings.messages_per_tick) {
             tcm.send(*id, outgoing, &directory.0, budgets.as_deref_mut(), &mut on_air);
         }
     }
@@ -189,16 +168,17 @@ impl Tcm {
         budgets: Option<&mut MessageBudgets>,
         on_air: &mut OnAir,
     ) {
-        let Outgoing { to, module, data_type, kind, sequence, bytes } = outgoing;
-        let source = Address { entity: party(from), module };
-        let destination = Address { entity: to, module };
-        let message = ExternalMessage { source, destination, data_type, data: bytes };
+        let Outgoing { to, known, data } = outgoing;
+        let (module, data_type) = (known.module, known.number);
+        let source = Address { peer: from.into(), module };
+        let destination = Address { peer: to, module };
+        let message = ExternalMessage { source, destination, data_type, data };
         let Ok(pieces) = cut(&message, self.counter, self.settings.datagram) else {
             self.counters.too_large(module, data_type);
             return;
         };
         if let Some(budgets) = budgets
-            && directory.receivers(to, source.entity).next().is_some()
+            && directory.receivers(to, source.peer).next().is_some()
             && !budgets.spend(from, pieces.len())
         {
             self.counters.dropped(module, data_type, Dropped::OverBudget);
@@ -208,15 +188,15 @@ impl Tcm {
         let mut datagrams = 0;
         for piece in pieces {
             let bytes: Arc<[u8]> = piece.into();
-            for to in directory.receivers(to, source.entity) {
-                on_air.0.push(Datagram { from, to, kind, sequence, bytes: bytes.clone() });
+            for to in directory.receivers(to, source.peer) {
+                on_air.0.push(Datagram { from, to, bytes: bytes.clone() });
                 datagrams += 1;
             }
         }
         self.counters.sent(module, data_type, message.data.len(), datagrams);
     }
 
-    fn take_in(&mut self, datagram: &[u8], to: Party, tick: u64) -> Option<ExternalMessage> {
+    fn take_in(&mut self, datagram: &[u8], to: Peer, tick: u64) -> Option<ExternalMessage> {
         let message = match self.assembly.accept(tick, datagram) {
             Ok(message) => message?,
             Err(_) => {
@@ -224,22 +204,10 @@ impl Tcm {
                 return None;
             }
         };
-        if message.destination.entity.includes(to) {
+        if message.destination.peer.includes(to) {
             return Some(message);
         }
         self.counters.foreign();
         None
-    }
-}
-
-impl Directory {
-    /// The receivers of a message: those it names, and every computer if it is for a team, so that tools can follow.
-    fn receivers(&self, to: Party, from: Party) -> impl Iterator<Item = Party> {
-        let listens = move |party: Party| match to {
-            Party::Team(_) => matches!(party, Party::Computer(_)) && party != HOST,
-            _ => false,
-        };
-        let known = self.entries().map(|(party, _)| party);
-        known.filter(move |party| *party != from && (to.includes(*party) || listens(*party)))
     }
 }

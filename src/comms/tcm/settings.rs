@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::client::{QueueRule, WhenFull};
 use super::fragments::{HEADER, LARGEST_DATAGRAM, Limits, USUAL_DATAGRAM};
+use super::queues::{QueueRule, WhenFull};
 use crate::clock::Clock;
 use crate::data::{Bound, Fault, count_fault, first_fault};
 
@@ -16,13 +16,13 @@ pub struct TcmSettings {
     /// The queue of each module.
     pub queue: QueueRule,
     /// Messages that the TCM takes from a robot's queues in one tick.
-    pub takes: usize,
+    pub messages_per_tick: usize,
     /// Unfinished messages that a robot keeps at a time.
-    pub unfinished: usize,
+    pub max_partial: usize,
     /// The longest message, bytes.
     pub longest: usize,
     /// How long the fragments of a message are kept while some are missing, s.
-    pub patience: f32,
+    pub timeout: f32,
 }
 
 impl Default for TcmSettings {
@@ -30,10 +30,10 @@ impl Default for TcmSettings {
         TcmSettings {
             datagram: USUAL_DATAGRAM,
             queue: QueueRule { capacity: 8, when_full: WhenFull::DropOldest },
-            takes: 16,
-            unfinished: 16,
+            messages_per_tick: 16,
+            max_partial: 16,
             longest: 64 * 1024,
-            patience: 1.0,
+            timeout: 1.0,
         }
     }
 }
@@ -52,23 +52,23 @@ impl TcmSettings {
         let counts = [
             ("datagram", self.datagram, HEADER + 1..=LARGEST_DATAGRAM),
             ("queue.capacity", self.queue.capacity, 1..=MOST_MESSAGES),
-            ("takes", self.takes, 1..=MOST_MESSAGES),
-            ("unfinished", self.unfinished, 1..=MOST_MESSAGES),
+            ("messages_per_tick", self.messages_per_tick, 1..=MOST_MESSAGES),
+            ("max_partial", self.max_partial, 1..=MOST_MESSAGES),
             ("longest", self.longest, 1..=LONGEST),
         ];
         let faulty =
             |(field, count, within): (&str, usize, _)| Some((field.into(), count_fault(count, within)?));
-        let patience = [("patience", self.patience, Bound::SECONDS.positive())];
-        counts.into_iter().find_map(faulty).or_else(|| first_fault(patience))
+        let timeout = [("timeout", self.timeout, Bound::SECONDS.positive())];
+        counts.into_iter().find_map(faulty).or_else(|| first_fault(timeout))
     }
 
     /// What an assembly may cost.
     pub fn limits(&self, clock: &Clock) -> Limits {
         Limits {
-            messages: self.unfinished,
+            messages: self.max_partial,
             bytes: 4 * self.longest + OVERHEAD,
             message_bytes: self.longest,
-            patience: clock.ticks(self.patience),
+            timeout: clock.ticks(self.timeout),
         }
     }
 }

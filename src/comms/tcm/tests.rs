@@ -3,11 +3,10 @@
 use crate::testing::perfect_sensing;
 use std::iter::zip;
 
-use super::client::{QueueCounters, QueueRule, WhenFull};
 use super::counters::{Dropped, TypeCount};
-use super::external_message::Entity as Anybody;
+use super::queues::{QueueCounters, QueueRule, WhenFull};
 use super::*;
-use crate::comms::radio::{self, Channel, Conditions, FaultRules, MessageCounts, RadioLog, Traffic};
+use crate::comms::radio::{self, Channel, FaultRules, Interference, RadioRecord};
 use crate::data::ron_options;
 use crate::geometry::Pose;
 use crate::ids::Team::{Away, Home};
@@ -21,21 +20,25 @@ use crate::testing::{cye, perfect_radio};
 struct Note<const TYPE: u16, const MODULE: u8>(Vec<u8>);
 
 impl<const TYPE: u16, const MODULE: u8> Data for Note<TYPE, MODULE> {
-    const TYPE: DataType = DataType(TYPE);
-    const MODULE: Module = Module(MODULE);
-    const NAME: &'static str = "note";
+    const TYPES: &'static [TypeInfo] =
+        &[TypeInfo { number: DataType(TYPE), name: "note", module: Module(MODULE) }];
 
-    fn serialise(&self) -> Vec<u8> {
-        self.0.clone()
+    fn serialise(&self) -> (&'static TypeInfo, Vec<u8>) {
+        (&Self::TYPES[0], self.0.clone())
     }
 
-    fn unserialise(bytes: &[u8]) -> Option<Self> {
+    fn unserialise(_: DataType, bytes: &[u8]) -> Option<Self> {
         std::str::from_utf8(bytes).ok().map(|_| Note(bytes.to_vec()))
     }
 }
 
+/// The type that users' modules exchange.
+const NOTE: DataType = DataType(1024);
+/// A type that nobody has registered.
+const UNKNOWN: DataType = DataType(1025);
+
 /// Registered by [`app`].
-type Known = Note<1024, 128>;
+type UserNote = Note<1024, 128>;
 /// Of the same type, from another module.
 type Reply = Note<1024, 129>;
 /// Registered by nobody.
@@ -59,9 +62,9 @@ fn usual() -> TcmSettings {
 
 /// What the observer of the user's type has been called with: by whom, from whom, what.
 #[derive(Resource, Default)]
-struct Heard(Vec<(RobotId, Anybody, Vec<u8>)>);
+struct Notes(Vec<(RobotId, Peer, Vec<u8>)>);
 
-fn hear(arrived: On<Arrived<Known>>, robots: Query<&RobotId>, mut heard: ResMut<Heard>) {
+fn hear(arrived: On<Arrived<UserNote>>, robots: Query<&RobotId>, mut heard: ResMut<Notes>) {
     let id = robots.get(arrived.entity).expect("it arrives at a robot");
     heard.0.push((*id, arrived.from, arrived.data.0.clone()));
 }
@@ -71,10 +74,10 @@ fn app(settings: TcmSettings) -> App {
     let mut app = App::new();
     app.add_plugins((schedule::plugin, plugin, radio::plugin));
     app.insert_resource(Channel::new(Seed(1), perfect_radio()));
-    app.init_resource::<Conditions>().init_resource::<FaultRules>().init_resource::<Traffic>();
-    app.init_resource::<MessageCounts>().init_resource::<RadioLog>().init_resource::<Heard>();
+    app.init_resource::<Interference>().init_resource::<FaultRules>();
+    app.init_resource::<RadioRecord>().init_resource::<Notes>();
     app.insert_resource(Addresses(Directory::loopback(7400, &[3, 1]).expect("there are ports enough")));
-    app.register_data::<Known>().add_observer(hear);
+    app.register_data::<UserNote>().add_observer(hear);
     let clock = *app.world().resource::<Clock>();
     for (place, id) in zip(0u8.., [HOME_0, HOME_1, HOME_2, AWAY_0]) {
         app.world_mut().spawn((
@@ -102,13 +105,13 @@ fn say(app: &mut App, from: RobotId, what: impl Fn(&mut TcmClient)) {
     what(&mut client);
 }
 
-fn note(text: &str) -> Known {
+fn note(text: &str) -> UserNote {
     Note(text.into())
 }
 
 /// What has reached the observer since the last call, as text.
 fn heard(app: &mut App) -> Vec<(RobotId, String)> {
-    let heard = std::mem::take(&mut app.world_mut().resource_mut::<Heard>().0);
+    let heard = std::mem::take(&mut app.world_mut().resource_mut::<Notes>().0);
     let text = |bytes| String::from_utf8(bytes).expect("others are no notes");
     heard.into_iter().map(|(id, _, bytes)| (id, text(bytes))).collect()
 }
@@ -132,10 +135,10 @@ fn queue(app: &mut App, robot: RobotId, module: Module) -> (usize, QueueCounters
 }
 
 /// The datagrams of a message from robot 0 of home, as if a carrier brought them to another in the next tick.
-fn bring(app: &mut App, to: RobotId, destination: Anybody, counter: u32, text: &str) {
-    let address = |entity| Address { entity, module: USERS };
-    let (source, destination) = (address(party(HOME_0)), address(destination));
-    let message = ExternalMessage { source, destination, data_type: Known::TYPE, data: text.into() };
+fn bring(app: &mut App, to: RobotId, destination: Peer, counter: u32, text: &str) {
+    let address = |peer| Address { peer, module: USERS };
+    let (source, destination) = (address(HOME_0.into()), address(destination));
+    let message = ExternalMessage { source, destination, data_type: NOTE, data: text.into() };
     let datagrams = cut(&message, counter, small().datagram).expect("it can be cut");
     let mut incoming = app.world_mut().resource_mut::<Incoming>();
     incoming.0.extend(datagrams.into_iter().map(|datagram| (to, datagram.into())));
@@ -145,6 +148,11 @@ fn bring(app: &mut App, to: RobotId, destination: Anybody, counter: u32, text: &
 fn spoil(app: &mut App, rule: &str) {
     let rule = ron_options().from_str(rule).expect("the rule is sound");
     app.world_mut().resource_mut::<FaultRules>().add(rule);
+}
+
+/// One message was dropped, for this reason.
+fn only(reason: Dropped) -> [u64; Dropped::ALL.len()] {
+    Dropped::ALL.map(|other| u64::from(other == reason))
 }
 
 /// 1000 bytes, no two pieces of which are alike.
@@ -157,12 +165,12 @@ fn data_of_a_users_own_type_are_given_to_who_observes_it() {
     let mut app = app(usual());
     say(&mut app, HOME_0, |client| client.send(1, &note("to you")));
     ticks(&mut app, 2);
-    let expected = (HOME_1, party(HOME_0), b"to you".to_vec());
-    assert_eq!(app.world().resource::<Heard>().0, [expected]);
+    let expected = (HOME_1, Peer::from(HOME_0), b"to you".to_vec());
+    assert_eq!(app.world().resource::<Notes>().0, [expected]);
     let sent = TypeCount { messages_sent: 1, bytes_sent: 6, datagrams_sent: 1, ..TypeCount::default() };
     let received = TypeCount { messages_received: 1, bytes_received: 6, ..TypeCount::default() };
-    assert_eq!(tcm(&mut app, HOME_0).counters.of(USERS, Known::TYPE), sent);
-    assert_eq!(tcm(&mut app, HOME_1).counters.of(USERS, Known::TYPE), received);
+    assert_eq!(tcm(&mut app, HOME_0).counters.of(USERS, NOTE), sent);
+    assert_eq!(tcm(&mut app, HOME_1).counters.of(USERS, NOTE), received);
 }
 
 #[test]
@@ -174,8 +182,8 @@ fn data_that_nobody_has_registered_are_counted_and_do_not_keep_the_next_message_
     });
     ticks(&mut app, 2);
     assert_eq!(heard(&mut app), [(HOME_1, "found".into())]);
-    let count = tcm(&mut app, HOME_1).counters.of(USERS, Unknown::TYPE);
-    assert_eq!((count.dropped_as(Dropped::UnknownType), count.dropped_in_all()), (1, 1));
+    let count = tcm(&mut app, HOME_1).counters.of(USERS, UNKNOWN);
+    assert_eq!(count.dropped, only(Dropped::UnknownType));
     assert_eq!(count.messages_received, 0);
 }
 
@@ -183,13 +191,13 @@ fn data_that_nobody_has_registered_are_counted_and_do_not_keep_the_next_message_
 fn data_that_cannot_be_unserialised_are_counted_and_do_not_keep_the_next_message_back() {
     let mut app = app(usual());
     say(&mut app, HOME_0, |client| {
-        client.send::<Known>(1, &Note(vec![0xFF]));
+        client.send::<UserNote>(1, &Note(vec![0xFF]));
         client.send(1, &note("sound"));
     });
     ticks(&mut app, 2);
     assert_eq!(heard(&mut app), [(HOME_1, "sound".into())]);
-    let count = tcm(&mut app, HOME_1).counters.of(USERS, Known::TYPE);
-    assert_eq!((count.dropped_as(Dropped::NotUnserialisable), count.dropped_in_all()), (1, 1));
+    let count = tcm(&mut app, HOME_1).counters.of(USERS, NOTE);
+    assert_eq!(count.dropped, only(Dropped::NotUnserialisable));
     assert_eq!((count.messages_received, count.bytes_received), (1, 5));
 }
 
@@ -219,7 +227,7 @@ fn a_message_that_needs_many_datagrams_arrives_whole() {
     let mut heard = heard(&mut app);
     heard.sort_by_key(|(robot, _)| *robot);
     assert_eq!(heard, expected.concat());
-    let count = tcm(&mut app, HOME_0).counters.of(USERS, Known::TYPE);
+    let count = tcm(&mut app, HOME_0).counters.of(USERS, NOTE);
     // The long one in pieces of twelve bytes, each for two mates and a computer that may listen.
     assert_eq!((count.bytes_sent, count.datagrams_sent), (1005, 3 * (84 + 1)));
 }
@@ -245,9 +253,9 @@ fn a_message_that_lost_a_fragment_expires_and_only_for_who_missed_it() {
 #[test]
 fn fragments_that_come_in_another_order_and_twice_make_one_message() {
     let mut app = app(small());
-    bring(&mut app, HOME_1, Anybody::Team(0), 5, &long_text());
+    bring(&mut app, HOME_1, Peer::Team(0), 5, &long_text());
     app.world_mut().resource_mut::<Incoming>().0.reverse();
-    bring(&mut app, HOME_1, Anybody::Team(0), 5, &long_text());
+    bring(&mut app, HOME_1, Peer::Team(0), 5, &long_text());
     ticks(&mut app, 1);
     assert_eq!(heard(&mut app), [(HOME_1, long_text())]);
     assert_eq!(tcm(&mut app, HOME_1).assembly.counters().late, 84);
@@ -262,7 +270,7 @@ fn a_message_that_no_datagrams_can_carry_is_counted_and_does_not_keep_the_next_b
     });
     ticks(&mut app, 2);
     assert_eq!(heard_by(&mut app, HOME_1), ["b"]);
-    let count = tcm(&mut app, HOME_0).counters.of(USERS, Known::TYPE);
+    let count = tcm(&mut app, HOME_0).counters.of(USERS, NOTE);
     assert_eq!((count.dropped_as(Dropped::TooLarge), count.messages_sent), (1, 1));
 }
 
@@ -289,7 +297,7 @@ fn a_module_that_says_too_much_drops_its_oldest_or_its_newest_and_nothing_of_ano
 
 #[test]
 fn modules_take_turns_when_the_tcm_takes_less_than_they_say() {
-    let mut app = app(TcmSettings { takes: 2, ..usual() });
+    let mut app = app(TcmSettings { messages_per_tick: 2, ..usual() });
     say(&mut app, HOME_0, |client| {
         (0..6).for_each(|number| client.send(1, &note(&number.to_string())));
         client.send::<Reply>(1, &Note(b"also".into()));
@@ -310,7 +318,7 @@ fn what_is_for_one_reaches_one_and_what_is_for_the_team_all_mates_but_the_sender
     say(&mut app, HOME_0, |client| client.broadcast(&note("we")));
     ticks(&mut app, 2);
     assert_eq!(heard(&mut app), [(HOME_1, "we".into()), (HOME_2, "we".into())]);
-    say(&mut app, HOME_0, |client| client.post(Anybody::Everybody, &note("all")));
+    say(&mut app, HOME_0, |client| client.post(Peer::Everybody, &note("all")));
     ticks(&mut app, 2);
     assert_eq!(heard(&mut app), [HOME_1, HOME_2, AWAY_0].map(|robot| (robot, "all".into())));
     for robot in [HOME_0, HOME_1, HOME_2, AWAY_0] {
@@ -332,17 +340,17 @@ fn what_is_for_the_team_also_goes_to_computers_that_listen_but_not_to_the_match_
     // Not by the radio, which has no antenna for computers.
     app.world_mut().run_system_cached(send_messages).expect("it runs");
     let to: Vec<_> = app.world().resource::<OnAir>().0.iter().map(|datagram| datagram.to).collect();
-    assert_eq!(to, [party(HOME_1), party(HOME_2), Anybody::Computer(0), party(HOME_1)]);
+    assert_eq!(to, [Peer::from(HOME_1), Peer::from(HOME_2), Peer::Computer(0), Peer::from(HOME_1)]);
 }
 
 #[test]
 fn a_message_that_is_meant_for_somebody_else_is_foreign() {
     let mut app = app(usual());
-    bring(&mut app, HOME_1, party(HOME_2), 1, "for another");
-    bring(&mut app, HOME_1, Anybody::Team(1), 2, "for the others");
-    bring(&mut app, HOME_1, party(HOME_1), 3, "for me");
+    bring(&mut app, HOME_1, Peer::from(HOME_2), 1, "for another");
+    bring(&mut app, HOME_1, Peer::Team(1), 2, "for the others");
+    bring(&mut app, HOME_1, Peer::from(HOME_1), 3, "for me");
     ticks(&mut app, 1);
     assert_eq!(heard(&mut app), [(HOME_1, "for me".into())]);
     assert_eq!(tcm(&mut app, HOME_1).counters.foreign, 2);
-    assert_eq!(tcm(&mut app, HOME_1).counters.of(USERS, Known::TYPE).messages_received, 1);
+    assert_eq!(tcm(&mut app, HOME_1).counters.of(USERS, NOTE).messages_received, 1);
 }

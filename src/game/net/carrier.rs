@@ -8,14 +8,12 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use crate::clock::Clock;
-use crate::comms::messages::MessageKind;
 use crate::comms::radio::{
-    Fate, Loss, MessageCounts, Packet, RadioLog, RadioSystems, Traffic, deliver_datagrams, transmit_datagrams,
+    Delivery, Loss, Packet, RadioRecord, RadioSystems, deliver_datagrams, transmit_datagrams,
 };
-use crate::comms::tcm::external_message::Entity as Party;
 use crate::comms::tcm::fragments::Header;
 use crate::comms::tcm::udp::{UdpConn, UdpError};
-use crate::comms::tcm::{Addresses, Datagram, Directory, HOST, Incoming, OnAir, TcmSystems, as_robot, party};
+use crate::comms::tcm::{Addresses, Datagram, Directory, HOST, Incoming, OnAir, Peer, TcmSystems};
 use crate::ids::RobotId;
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
@@ -41,7 +39,7 @@ pub struct UdpCarrier {
     pub figures: CarrierFigures,
 }
 
-/// Counts of the datagrams of this process's robots.
+/// The datagrams of this process's robots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct CarrierFigures {
     /// To robots, wherever they are; those to computers that may listen are not counted.
@@ -57,10 +55,9 @@ pub struct CarrierFigures {
 }
 
 struct UnderWay {
-    header: (Party, u32, u16),
-    to: RobotId,
-    kind: MessageKind,
     id: u64,
+    packet: Packet,
+    /// The tick in which it was sent.
     sent: u64,
 }
 
@@ -78,8 +75,7 @@ impl UdpCarrier {
     ) -> Result<UdpCarrier, WireError> {
         let mut conns = BTreeMap::new();
         for robot in robots {
-            let entity = party(robot);
-            let address = directory.address_of(entity).ok_or(WireError::NoAddress(entity))?;
+            let address = address_of(robot, directory)?;
             conns.insert(robot, UdpConn::bind(address)?);
         }
         Ok(UdpCarrier::of(conns))
@@ -87,8 +83,7 @@ impl UdpCarrier {
 
     /// Opens a socket for one more robot, at another address if its own is taken, and tells where.
     pub(super) fn take_in(&mut self, robot: RobotId, directory: &Directory) -> Result<SocketAddr, WireError> {
-        let entity = party(robot);
-        let own = directory.address_of(entity).ok_or(WireError::NoAddress(entity))?;
+        let own = address_of(robot, directory)?;
         // Any other is one that the other robots of this process can reach.
         let near = self.conns.values().next().map_or(own.ip(), |conn| conn.address().ip());
         let conn = UdpConn::bind(own).or_else(|_| UdpConn::bind(SocketAddr::new(near, 0)))?;
@@ -117,15 +112,15 @@ impl UdpCarrier {
         from: SocketAddr,
         bytes: &[u8],
         directory: &Directory,
-    ) -> Option<(Party, Header)> {
-        let known = Header::read(bytes).ok().map(|(header, _)| (header.source.entity, header));
+    ) -> Option<(Peer, Header)> {
+        let known = Header::read(bytes).ok().map(|(header, _)| (header.source.peer, header));
         // Tools may speak from anywhere; robots and the match itself from where the directory has them.
         let sender = known.filter(|(source, _)| match source {
-            Party::Computer(_) if *source != HOST => true,
-            _ => directory.entity_at(from) == Some(*source),
+            Peer::Computer(_) if *source != HOST => true,
+            _ => directory.peer_at(from) == Some(*source),
         });
         match sender {
-            Some((Party::Robot { .. }, _)) => self.figures.received += 1,
+            Some((Peer::Robot { .. }, _)) => self.figures.received += 1,
             Some(_) => self.figures.from_computers += 1,
             None => self.figures.foreign += 1,
         }
@@ -138,9 +133,10 @@ impl UdpCarrier {
         conn.send(address, &datagram.bytes).map(|()| true)
     }
 
-    fn arrived(&mut self, header: (Party, u32, u16), to: RobotId) -> Option<UnderWay> {
-        let place = self.under_way.iter().position(|sent| sent.header == header && sent.to == to)?;
-        self.under_way.remove(place)
+    /// The transmission that a packet ends, if it was sent in this process.
+    fn arrived(&mut self, packet: &Packet) -> Option<u64> {
+        let place = self.under_way.iter().position(|sent| sent.packet == *packet)?;
+        self.under_way.remove(place).map(|sent| sent.id)
     }
 
     /// Counts what has arrived and was not read.
@@ -155,11 +151,16 @@ impl UdpCarrier {
     }
 }
 
+fn address_of(robot: RobotId, directory: &Directory) -> Result<SocketAddr, WireError> {
+    let peer = Peer::from(robot);
+    directory.address_of(peer).ok_or(WireError::NoAddress(peer))
+}
+
 fn deliver(
     clock: Res<Clock>,
     addresses: Res<Addresses>,
     mut carrier: ResMut<UdpCarrier>,
-    (mut traffic, mut counts, mut log): (ResMut<Traffic>, ResMut<MessageCounts>, ResMut<RadioLog>),
+    mut record: ResMut<RadioRecord>,
     mut incoming: ResMut<Incoming>,
     robots: Query<(&RobotId, &Robot)>,
 ) {
@@ -170,35 +171,45 @@ fn deliver(
         for _ in 0..DATAGRAMS_A_TICK {
             let Some((from, bytes)) = carrier.next(to) else { break };
             let Some((source, header)) = carrier.note(from, &bytes, &addresses.0) else { continue };
-            let known = carrier.arrived((source, header.counter, header.index), to);
-            if let Some(from) = as_robot(source) {
+            if let Some(from) = source.robot() {
+                let packet = Packet { kind: header.data_type, from, to, bytes: bytes.clone() };
+                let id = carrier.arrived(&packet).unwrap_or_else(|| {
+                    // A robot in another process sent it, in the tick before.
+                    record.sent(&packet, &Delivery::on_time(clock.tick), clock.tick.saturating_sub(1))
+                });
                 if hears {
-                    traffic.deliver(from, to);
-                    let kind = known.as_ref().map_or(MessageKind::Other, |sent| sent.kind);
-                    counts.count_delivered(kind, from, to);
+                    record.delivered(id, &packet, clock.tick);
                 } else {
-                    traffic.lose(from, to, Loss::Deaf);
+                    record.lost(id, &packet, Loss::Deaf);
                 }
-            }
-            match (known, hears) {
-                (Some(sent), true) => log.arrived(sent.id, clock.tick),
-                (Some(sent), false) => log.lost(sent.id, Loss::Deaf),
-                (None, _) => {}
             }
             if hears {
                 incoming.0.push((to, bytes));
             }
         }
     }
-    let lost = clock.ticks(LOST);
-    while carrier.under_way.front().is_some_and(|sent| sent.sent + lost < clock.tick) {
-        if let Some(sent) = carrier.under_way.pop_front() {
-            log.lost(sent.id, Loss::Chance);
-        }
-    }
+    carrier.settle(&mut record, &clock);
 }
 
 impl UdpCarrier {
+    /// What was sent to a robot in another process is taken to have arrived, since nothing tells this one; what a robot of
+    /// this process has waited for too long is lost.
+    fn settle(&mut self, record: &mut RadioRecord, clock: &Clock) {
+        let lost = clock.ticks(LOST);
+        let conns = &self.conns;
+        self.under_way.retain(|UnderWay { id, packet, sent }| {
+            if !conns.contains_key(&packet.to) {
+                record.delivered(*id, packet, clock.tick);
+                return false;
+            }
+            let is_lost = sent + lost < clock.tick;
+            if is_lost {
+                record.lost(*id, packet, Loss::Chance);
+            }
+            !is_lost
+        });
+    }
+
     fn next(&mut self, robot: RobotId) -> Option<(SocketAddr, Arc<[u8]>)> {
         let received = self.conns.get_mut(&robot)?.receive();
         received.ok().flatten().map(|(from, bytes)| (from, bytes.into()))
@@ -210,25 +221,15 @@ pub(super) fn transmit(
     addresses: Res<Addresses>,
     mut carrier: ResMut<UdpCarrier>,
     mut on_air: ResMut<OnAir>,
-    (mut traffic, mut counts, mut log): (ResMut<Traffic>, ResMut<MessageCounts>, ResMut<RadioLog>),
+    mut record: ResMut<RadioRecord>,
     robots: Query<(&RobotId, &Robot)>,
 ) {
-    log.forget(&clock);
+    record.forget(&clock);
     for datagram in on_air.0.drain(..) {
-        let to = as_robot(datagram.to);
-        let mute = robots.iter().any(|(id, robot)| *id == datagram.from && robot.condition.mute);
-        let packet = to.map(|to| Packet {
-            kind: datagram.kind,
-            from: datagram.from,
-            to,
-            bytes: datagram.bytes.len(),
-            distance: 0.0,
-        });
-        if mute {
+        let packet = Packet::of(&datagram);
+        if robots.iter().any(|(id, robot)| *id == datagram.from && robot.condition.mute) {
             if let Some(packet) = packet {
-                let fate = Fate::lost(Loss::Mute);
-                traffic.send(&packet, &fate);
-                log.sent(&packet, datagram.sequence, &fate, clock.tick);
+                record.drop_muted(&packet, clock.tick);
             }
             continue;
         }
@@ -242,14 +243,7 @@ pub(super) fn transmit(
         }
         let Some(packet) = packet else { continue };
         carrier.figures.sent += 1;
-        let fate = Fate::on_time(clock.tick + 1);
-        traffic.send(&packet, &fate);
-        counts.count_sent(packet.kind, packet.from, packet.to);
-        let id = log.sent(&packet, datagram.sequence, &fate, clock.tick);
-        if let Ok((header, _)) = Header::read(&datagram.bytes) {
-            let header = (header.source.entity, header.counter, header.index);
-            let (to, kind) = (packet.to, packet.kind);
-            carrier.under_way.push_back(UnderWay { header, to, kind, id, sent: clock.tick });
-        }
+        let id = record.sent(&packet, &Delivery::on_time(clock.tick + 1), clock.tick);
+        carrier.under_way.push_back(UnderWay { id, packet, sent: clock.tick });
     }
 }

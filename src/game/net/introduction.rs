@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_64;
 
 use crate::clock::Clock;
-use crate::comms::tcm::{Data, DataType, Module, from_postcard, to_postcard};
+use crate::comms::tcm::{DataType, Module, data};
 use crate::game::MatchPlan;
 use crate::ids::RobotId;
 
@@ -95,25 +95,16 @@ impl Particular {
     }
 }
 
-impl Data for Introduction {
-    const TYPE: DataType = DataType(18);
-    const MODULE: Module = Module::REMOTE_ROBOTS;
-    const NAME: &'static str = "introduction";
+const INTRODUCTION: DataType = DataType(18);
 
-    fn serialise(&self) -> Vec<u8> {
-        to_postcard(self)
-    }
-
-    fn unserialise(bytes: &[u8]) -> Option<Introduction> {
-        from_postcard(bytes, |_| true)
-    }
-}
+data!(Introduction { INTRODUCTION, "introduction", Module::REMOTE_ROBOTS; (it) = it: Introduction; });
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
     use super::*;
+    use crate::comms::tcm::Data;
     use crate::data::AssetFolder;
     use crate::game::Choice;
     use crate::ids::Team;
@@ -145,7 +136,7 @@ mod tests {
             }),
             ("kind of robot", |plan| Arc::make_mut(&mut plan.teams[0].kind).control_hz += 1.0),
             ("sensing", |plan| Arc::make_mut(&mut plan.teams[0].sensing).memory.ball += 0.1),
-            ("set-up of the team communication", |plan| plan.tcm.takes += 1),
+            ("set-up of the team communication", |plan| plan.tcm.messages_per_tick += 1),
         ];
         for (what, change) in changes {
             let line = difference(change).unwrap_or_default();
@@ -170,8 +161,8 @@ mod tests {
     #[test]
     fn an_introduction_comes_back_as_it_was() {
         let introduction = Introduction::new(&plan(), ROBOT, 7);
-        let bytes = introduction.serialise();
-        assert_eq!(Introduction::unserialise(&bytes), Some(introduction));
-        assert_eq!(Introduction::unserialise(&bytes[1..]), None);
+        let (_, bytes) = introduction.serialise();
+        assert_eq!(Introduction::unserialise(INTRODUCTION, &bytes), Some(introduction));
+        assert_eq!(Introduction::unserialise(INTRODUCTION, &bytes[1..]), None);
     }
 }

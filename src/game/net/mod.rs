@@ -29,9 +29,8 @@ pub use remote::RemoteFigures;
 pub use robot::{RobotEnd, RobotProcess, RobotReport};
 
 use crate::clock::Clock;
-use crate::comms::tcm::external_message::Entity as Party;
 use crate::comms::tcm::udp::UdpError;
-use crate::comms::tcm::{Addresses, MessageBudgets, party};
+use crate::comms::tcm::{Addresses, MessageBudgets, Peer};
 use crate::data::DataError;
 use crate::game::MatchPlan;
 use crate::ids::RobotId;
@@ -105,7 +104,7 @@ pub enum WireError {
     #[error(transparent)]
     Udp(#[from] UdpError),
     #[error("{0} has no address: add it to the addresses")]
-    NoAddress(Party),
+    NoAddress(Peer),
     #[error("no referee box was heard at {address} within {} s", patience.as_secs_f32())]
     NoBox { address: SocketAddr, patience: Duration },
     #[error("{robot} has not answered at {address} for {} s: start it with `{}`", patience.as_secs_f32(), start(*robot))]
@@ -219,7 +218,7 @@ pub fn give_up(world: &mut World, robot: RobotId) -> Result<(), WireError> {
     let mut addresses = world.resource::<Addresses>().0.clone();
     let Some(mut carrier) = world.get_resource_mut::<UdpCarrier>() else { return Ok(()) };
     let address = carrier.take_in(robot, &addresses)?;
-    addresses.put(party(robot), address);
+    addresses.put(robot.into(), address);
     world.insert_resource(Addresses(addresses));
     Ok(())
 }

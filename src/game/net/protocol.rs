@@ -7,11 +7,8 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::introduction::Introduction;
-use crate::comms::tcm::external_message::Entity as Party;
 use crate::comms::tcm::fragments::{USUAL_DATAGRAM, cut};
-use crate::comms::tcm::{
-    Address, Data, DataType, ExternalMessage, Module, RegisterData, from_postcard, to_postcard,
-};
+use crate::comms::tcm::{Data, DataType, ExternalMessage, Module, Peer, RegisterData, data};
 use crate::geometry::Pose;
 use crate::robot::{Frame, HeadIntent, KickIntent, Orders, SteeringIntent};
 
@@ -68,16 +65,9 @@ pub struct Command {
 }
 
 /// The datagrams that bring data from one end of the link to the other, as the next message of their source.
-pub(super) fn datagrams<T: Data>(data: &T, from: Party, to: Party, counter: &mut u32) -> Vec<Vec<u8>> {
-    let address = |entity| Address { entity, module: T::MODULE };
-    let message = ExternalMessage {
-        source: address(from),
-        destination: address(to),
-        data_type: T::TYPE,
-        data: data.serialise(),
-    };
+pub(super) fn datagrams<T: Data>(data: &T, from: Peer, to: Peer, counter: &mut u32) -> Vec<Vec<u8>> {
     *counter = counter.wrapping_add(1);
-    cut(&message, *counter, USUAL_DATAGRAM).unwrap_or_default()
+    cut(&ExternalMessage::of(data, from, to), *counter, USUAL_DATAGRAM).unwrap_or_default()
 }
 
 /// A number that the last process at this place has not used, for counting on from: milliseconds on the wall's clock.
@@ -110,33 +100,11 @@ impl Sensors {
     }
 }
 
-impl Data for Sensors {
-    const TYPE: DataType = DataType(19);
-    const MODULE: Module = Module::REMOTE_ROBOTS;
-    const NAME: &'static str = "sensors";
+const SENSORS: DataType = DataType(19);
+const COMMAND: DataType = DataType(20);
 
-    fn serialise(&self) -> Vec<u8> {
-        to_postcard(self)
-    }
-
-    fn unserialise(bytes: &[u8]) -> Option<Sensors> {
-        from_postcard(bytes, Sensors::is_finite)
-    }
-}
-
-impl Data for Command {
-    const TYPE: DataType = DataType(20);
-    const MODULE: Module = Module::REMOTE_ROBOTS;
-    const NAME: &'static str = "command";
-
-    fn serialise(&self) -> Vec<u8> {
-        to_postcard(self)
-    }
-
-    fn unserialise(bytes: &[u8]) -> Option<Command> {
-        from_postcard(bytes, Command::is_finite)
-    }
-}
+data!(Sensors { SENSORS, "sensors", Module::REMOTE_ROBOTS; (it) = it: Sensors, if Sensors::is_finite; });
+data!(Command { COMMAND, "command", Module::REMOTE_ROBOTS; (it) = it: Command, if Command::is_finite; });
 
 #[cfg(test)]
 mod tests {
@@ -161,13 +129,14 @@ mod tests {
 
     #[test]
     fn a_command_comes_back_as_it_was() {
-        let bytes = command(1.0).serialise();
-        assert_eq!(Command::unserialise(&bytes), Some(command(1.0)));
-        assert_eq!(Command::unserialise(&bytes[1..]), None);
+        let (_, bytes) = command(1.0).serialise();
+        assert_eq!(Command::unserialise(COMMAND, &bytes), Some(command(1.0)));
+        assert_eq!(Command::unserialise(COMMAND, &bytes[1..]), None);
+        assert_eq!(Command::unserialise(SENSORS, &bytes), None);
     }
 
     #[test]
     fn what_is_not_a_number_is_no_command() {
-        assert_eq!(Command::unserialise(&command(f32::NAN).serialise()), None);
+        assert_eq!(Command::unserialise(COMMAND, &command(f32::NAN).serialise().1), None);
     }
 }

@@ -17,7 +17,7 @@ use super::protocol::{Command, Sensors, datagrams, unused_number};
 use crate::clock::Clock;
 use crate::comms::tcm::fragments::{Assembly, Limits};
 use crate::comms::tcm::udp::UdpConn;
-use crate::comms::tcm::{Data, Directory, HOST, MessageBudgets, Tcm, party};
+use crate::comms::tcm::{Data, Directory, ExternalMessage, HOST, MessageBudgets, Peer, Tcm};
 use crate::game::MatchPlan;
 use crate::game::requests::{Request, Requests, Treatment};
 use crate::ids::RobotId;
@@ -118,8 +118,8 @@ impl RemoteRobots {
         let host = directory.address_of(HOST).ok_or(WireError::NoAddress(HOST))?;
         let session = unused_number();
         let remote = |robot: RobotId| {
-            let entity = party(robot);
-            let address = directory.address_of(entity).ok_or(WireError::NoAddress(entity))?;
+            let peer = Peer::from(robot);
+            let address = directory.address_of(peer).ok_or(WireError::NoAddress(peer))?;
             let figures = RemoteFigures { robot, told: 0, answered: 0, missed: 0, sent: 0, received: 0 };
             let introduction = Introduction::new(plan, robot, session);
             let remote = Remote {
@@ -207,7 +207,7 @@ impl RemoteRobots {
     }
 
     pub(super) fn send<T: Data>(&mut self, to: SocketAddr, robot: RobotId, data: &T) {
-        for datagram in datagrams(data, HOST, party(robot), &mut self.counter) {
+        for datagram in datagrams(data, HOST, robot.into(), &mut self.counter) {
             // A robot that is not there is noticed by its silence.
             let _ = self.conn.send(to, &datagram);
         }
@@ -227,14 +227,12 @@ impl RemoteRobots {
         let word = match self.assembly.accept(0, datagram) {
             Ok(None) => return Some(None),
             Err(_) => Word::Other,
-            Ok(Some(message)) if message.source.entity != party(robot) => Word::Other,
-            Ok(Some(message)) => match message.data_type {
-                Introduction::TYPE => {
-                    Introduction::unserialise(&message.data).map_or(Word::Other, Word::Introduction)
-                }
-                Command::TYPE => Command::unserialise(&message.data).map_or(Word::Other, Word::Command),
-                _ => Word::Other,
-            },
+            Ok(Some(message)) if message.source.peer != Peer::from(robot) => Word::Other,
+            Ok(Some(ExternalMessage { data_type, data, .. })) => {
+                let introduction = Introduction::unserialise(data_type, &data).map(Word::Introduction);
+                let command = || Command::unserialise(data_type, &data).map(Word::Command);
+                introduction.or_else(command).unwrap_or(Word::Other)
+            }
         };
         Some(Some((robot, word)))
     }
@@ -343,7 +341,7 @@ mod tests {
         let somewhere = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
         let silent = UdpSocket::bind(somewhere).unwrap();
         let directory =
-            [(HOST, somewhere), (party(ROBOT), silent.local_addr().unwrap())].into_iter().collect();
+            [(HOST, somewhere), (ROBOT.into(), silent.local_addr().unwrap())].into_iter().collect();
         let mut remote = RemoteRobots::open(&directory, &[ROBOT], &plan).unwrap();
         let mut game = Match::new(&plan);
         remote.robots.values_mut().for_each(|robot| robot.let_in(ROBOT, 0));

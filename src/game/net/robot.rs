@@ -14,10 +14,9 @@ use super::introduction::Introduction;
 use super::protocol::{Command, Sensors, datagrams, unused_number};
 use super::remote::DATAGRAMS_A_TICK;
 use crate::clock::Clock;
-use crate::comms::tcm::external_message::Entity as Party;
 use crate::comms::tcm::fragments::{Assembly, Header, Limits};
 use crate::comms::tcm::udp::UdpConn;
-use crate::comms::tcm::{Addresses, Data, HOST, Incoming, MessageBudgets, Tcm, party};
+use crate::comms::tcm::{Addresses, Data, HOST, Incoming, MessageBudgets, Peer, Tcm};
 use crate::game::{MatchPlan, start_mind};
 use crate::ids::RobotId;
 use crate::mind::world_model::WorldModel;
@@ -91,7 +90,7 @@ impl RobotProcess {
             entity,
             // Not those of the match, of which the other side may think differently.
             assembly: Assembly::new(Limits::default()),
-            // Commands count from far away, since they come from the same entity as messages to the team.
+            // Commands count from far away, since they come from the same peer as messages to the team.
             counter: unused_number().wrapping_add(1 << 31),
             introduction: None,
             heard: Instant::now(),
@@ -163,7 +162,7 @@ impl RobotProcess {
         Err(WireError::NoMatch { robot: self.id, address, patience })
     }
 
-    fn note(&mut self, from: SocketAddr, datagram: &[u8]) -> Option<(Party, Header)> {
+    fn note(&mut self, from: SocketAddr, datagram: &[u8]) -> Option<(Peer, Header)> {
         let world = self.app.world_mut();
         let directory = world.resource::<Addresses>().0.clone();
         world.resource_mut::<UdpCarrier>().note(from, datagram, &directory)
@@ -172,14 +171,11 @@ impl RobotProcess {
     /// What a datagram of the match comes to: sensors, if it brings some of the match that has greeted the robot.
     fn hear_match(&mut self, from: SocketAddr, datagram: &[u8]) -> Result<Option<Box<Sensors>>, WireError> {
         let Ok(Some(message)) = self.assembly.accept(0, datagram) else { return Ok(None) };
-        if message.data_type == Introduction::TYPE
-            && let Some(there) = Introduction::unserialise(&message.data)
-        {
+        let (data_type, data) = (message.data_type, message.data);
+        if let Some(there) = Introduction::unserialise(data_type, &data) {
             return self.meet(from, &there).map(|()| None);
         }
-        if message.data_type == Sensors::TYPE
-            && let Some(sensors) = Sensors::unserialise(&message.data)
-        {
+        if let Some(sensors) = Sensors::unserialise(data_type, &data) {
             let known = self.introduction.as_ref().is_some_and(|known| known.session == sensors.session);
             if known {
                 self.heard = Instant::now();
@@ -259,7 +255,7 @@ impl RobotProcess {
     }
 
     fn send<T: Data>(&mut self, to: SocketAddr, data: &T) {
-        let datagrams = datagrams(data, party(self.id), HOST, &mut self.counter);
+        let datagrams = datagrams(data, self.id.into(), HOST, &mut self.counter);
         let mut carrier = self.app.world_mut().resource_mut::<UdpCarrier>();
         let Some(conn) = carrier.conn(self.id) else { return };
         for datagram in datagrams {

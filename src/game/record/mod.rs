@@ -16,7 +16,7 @@ pub use bookings::{BookingFigures, PING_PONG, Span};
 pub use overlap::{BallOverlap, TOLERANCE};
 
 use crate::clock::Clock;
-use crate::comms::radio::RadioLog;
+use crate::comms::radio::RadioRecord;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::Swapping;
@@ -105,7 +105,12 @@ type Bodies<'a> = (
 );
 
 /// Folds the state of the world into the digest, in the order of robots, trailers and ball.
-fn digest(mut record: ResMut<Record>, state: Res<MatchState>, log: Res<RadioLog>, bodies: Query<Bodies>) {
+fn digest(
+    mut record: ResMut<Record>,
+    state: Res<MatchState>,
+    radio: Res<RadioRecord>,
+    bodies: Query<Bodies>,
+) {
     let mut sorted: smallvec::SmallVec<[(u32, [u32; 6]); 24]> = bodies
         .iter()
         .map(|(pose, robot, trailer, role, activity, swapping)| {
@@ -130,7 +135,7 @@ fn digest(mut record: ResMut<Record>, state: Res<MatchState>, log: Res<RadioLog>
     bytes.extend_from_slice(&state.score[0].to_le_bytes());
     bytes.extend_from_slice(&state.score[1].to_le_bytes());
     bytes.push(state.phase as u8);
-    bytes.extend_from_slice(&log.transmissions().to_le_bytes());
+    bytes.extend_from_slice(&radio.transmitted().to_le_bytes());
     record.digest = xxh3_64_with_seed(&bytes, record.digest);
 }
 

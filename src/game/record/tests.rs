@@ -22,7 +22,7 @@ fn app() -> App {
     app.insert_resource(record(1));
     app.insert_resource(Clock::new(60.0));
     app.insert_resource(state);
-    app.init_resource::<RadioLog>();
+    app.init_resource::<RadioRecord>();
     let strategy = std::sync::Arc::new(crate::testing::idle());
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(BALL);

@@ -1,7 +1,7 @@
 //! Requests, carried out by hand.
 
 use super::*;
-use crate::comms::radio::{Channel, Conditions, FaultRules};
+use crate::comms::radio::{Channel, FaultRules, Interference};
 use crate::ids::Team::{Away, Home};
 use crate::rng::Seed;
 use crate::testing::{perfect_radio, strategy};
@@ -37,7 +37,7 @@ fn app() -> App {
     }
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(Channel::new(Seed(1), perfect_radio()));
-    app.insert_resource(Conditions::default()).insert_resource(FaultRules::default());
+    app.insert_resource(Interference::default()).insert_resource(FaultRules::default());
     app
 }
 
@@ -179,6 +179,6 @@ fn what_a_hand_asks_for_is_kept_within_the_bounds_of_files() {
     let weather = [Weather::ExtraDelay(1e30), Weather::ExtraLoss(-5.0)].map(Request::Air);
     ask(&mut app, [weight].into_iter().chain(weather));
     assert_eq!(weights(&app, Home), [1000.0, 2.0]);
-    let conditions = app.world().resource::<Conditions>();
-    assert_eq!((conditions.extra_delay, conditions.extra_loss, conditions.fault()), (600.0, 0.0, None));
+    let interference = app.world().resource::<Interference>();
+    assert_eq!((interference.extra_delay, interference.extra_loss), (600.0, 0.0));
 }

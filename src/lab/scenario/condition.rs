@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::comms::messages::MessageKind;
+use crate::comms::tcm::DataType;
 use crate::geometry::Zone;
 use crate::ids::{RobotId, Team};
 
@@ -161,7 +161,7 @@ pub enum Condition {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Packets {
-    pub kind: MessageKind,
+    pub kind: DataType,
     #[serde(default)]
     pub from: Option<RobotId>,
     #[serde(default)]

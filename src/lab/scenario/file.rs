@@ -163,7 +163,7 @@ mod tests {
     use super::super::stage::{EXAMPLE, example};
     use super::super::{Area, Condition, Event, Expectation, Packets, Thing};
     use super::*;
-    use crate::comms::messages::MessageKind;
+    use crate::comms::tcm::DataType;
     use crate::data::{Source, ron_options};
     use crate::geometry::Zone;
     use crate::ids::{RobotId, Team};
@@ -242,7 +242,7 @@ mod tests {
         );
 
         let packets =
-            Packets { kind: MessageKind::Lock, from: Some(home(1)), to: None, at_least: 1, since: 0.0 };
+            Packets { kind: DataType::LOCK, from: Some(home(1)), to: None, at_least: 1, since: 0.0 };
         assert_eq!(parsed::<Condition>(r#"Sent(kind: Lock, from: "home 1")"#), Condition::Sent(packets));
 
         let roles = [(0, "goalie".to_owned()), (2, "forward".to_owned())].into();

@@ -13,7 +13,7 @@ use super::plan::ScenarioPlan;
 use super::report::{Report, Run};
 use super::scene::{RobotScene, Scene};
 use crate::clock::Clock;
-use crate::comms::radio::MessageCounts;
+use crate::comms::radio::RadioRecord;
 use crate::game::Match;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
@@ -105,7 +105,7 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
         ball_at_start: judge.ball_at_start(),
         robots: scenes,
         score: world.resource::<MatchState>().score,
-        messages: world.resource::<MessageCounts>(),
+        radio: world.resource::<RadioRecord>(),
     });
 }
 

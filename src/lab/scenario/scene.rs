@@ -3,7 +3,7 @@
 use bevy::prelude::Vec2;
 
 use super::condition::{Area, Thing};
-use crate::comms::radio::MessageCounts;
+use crate::comms::radio::RadioRecord;
 use crate::geometry::{Pose, Zone};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -25,7 +25,7 @@ pub struct Scene<'a> {
     pub robots: Vec<RobotScene<'a>>,
     /// Goals, home first.
     pub score: [u32; 2],
-    pub messages: &'a MessageCounts,
+    pub radio: &'a RadioRecord,
 }
 
 /// A robot in a [`Scene`].

@@ -5,7 +5,7 @@ use bevy::prelude::Vec2;
 use super::check::{Known, KnownTeam, Scenario, check};
 use super::file::ScenarioFile;
 use super::scene::{RobotScene, Scene};
-use crate::comms::radio::MessageCounts;
+use crate::comms::radio::RadioRecord;
 use crate::data::{DataError, Source};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
@@ -76,7 +76,7 @@ pub(super) struct Stage {
     pub ball: Vec2,
     pub robots: Vec<RobotScene<'static>>,
     pub score: [u32; 2],
-    pub messages: MessageCounts,
+    pub radio: RadioRecord,
 }
 
 impl Default for Stage {
@@ -97,8 +97,8 @@ impl Default for Stage {
             locked_by: None,
             configuration: None,
         });
-        let messages = MessageCounts::default();
-        Stage { pitch: testing::pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], messages }
+        let radio = RadioRecord::default();
+        Stage { pitch: testing::pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], radio }
     }
 }
 
@@ -112,7 +112,7 @@ impl Stage {
             ball_at_start: Vec2::ZERO,
             robots: self.robots.clone(),
             score: self.score,
-            messages: &self.messages,
+            radio: &self.radio,
         }
     }
 }

@@ -97,10 +97,8 @@ impl Watch {
     }
 
     fn count(&self, packets: &Packets, scene: &Scene) -> u64 {
-        match self.condition {
-            Condition::Sent(_) => scene.messages.sent(packets.kind, packets.from, packets.to),
-            _ => scene.messages.delivered(packets.kind, packets.from, packets.to),
-        }
+        let counted = scene.radio.of_kind(packets.kind, packets.from, packets.to);
+        if matches!(self.condition, Condition::Sent(_)) { counted.on_air() } else { counted.delivered }
     }
 }
 

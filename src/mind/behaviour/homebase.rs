@@ -84,7 +84,7 @@ fn loyalty(home: Vec2, present: Vec2) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comms::messages::{GoalieBehaviour, GoalieNews, Side};
+    use crate::comms::messages::{GoalSide, GoalieBehaviour, GoalieNews};
     use crate::mind::perception::fixture::Situation;
     use crate::strategy::RoleRef;
 
@@ -101,7 +101,7 @@ mod tests {
     fn situation() -> Situation {
         let mut situation = Situation::at(1.5, 1.0, 0.0).with(Mechanism::HomebaseSelection);
         situation.picture.goalie.hear(
-            &GoalieNews { time: 1, robot: 0, behaviour: GoalieBehaviour::Entering, side: Side::Left },
+            &GoalieNews { time: 1, robot: 0, behaviour: GoalieBehaviour::Entering, side: GoalSide::Left },
             1,
         );
         situation.mate(3, 2.0, 1.0)

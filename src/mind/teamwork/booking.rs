@@ -5,7 +5,7 @@ use bevy::prelude::*;
 
 use super::picture::TeamPicture;
 use crate::clock::Clock;
-use crate::comms::messages::{Book, Inbox, Message};
+use crate::comms::messages::{Inbox, Message};
 use crate::comms::tcm::TcmClient;
 use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::world_model::WorldModel;
@@ -67,13 +67,13 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
             continue;
         }
         for received in &robot.inbox.0 {
-            if let Message::Book(Book(book)) = received.message {
+            if let Message::Book(book) = received.message {
                 robot.booking.0.step(clock.tick, Input::Hear { from: received.from, book });
             }
         }
         let input = robot.turn(strategy, &clock);
         if let Some(book) = robot.booking.0.step(clock.tick, input) {
-            robot.client.broadcast(&Book(book));
+            robot.client.broadcast(&Message::Book(book));
         }
         robot.picture.booking = robot.standing(clock.tick);
     }

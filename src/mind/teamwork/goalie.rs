@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::comms::messages::{GoalieBehaviour, GoalieNews, Side};
+use crate::comms::messages::{GoalSide, GoalieBehaviour, GoalieNews};
 use crate::geometry::Zone;
 
 /// The goalie's own watch over the border of its penalty area.
@@ -19,7 +19,7 @@ const CENTRE: f32 = 0.2;
 impl BorderWatch {
     /// What there is to tell, given the goalie's place in the team frame: it leaves when it comes out on the ball's account,
     /// and enters when it is back, whatever brings it.
-    pub fn update(&mut self, own: Vec2, area: Zone, acquires: bool) -> Option<(GoalieBehaviour, Side)> {
+    pub fn update(&mut self, own: Vec2, area: Zone, acquires: bool) -> Option<(GoalieBehaviour, GoalSide)> {
         let behaviour = match self.is_out {
             false if acquires && !area.grown(BORDER).contains(own) => GoalieBehaviour::Leaving,
             true if area.contains(own) => GoalieBehaviour::Entering,
@@ -30,11 +30,11 @@ impl BorderWatch {
     }
 }
 
-fn side(own: Vec2) -> Side {
+fn side(own: Vec2) -> GoalSide {
     match own.y {
-        y if y > CENTRE => Side::Left,
-        y if y < -CENTRE => Side::Right,
-        _ => Side::Centre,
+        y if y > CENTRE => GoalSide::Left,
+        y if y < -CENTRE => GoalSide::Right,
+        _ => GoalSide::Centre,
     }
 }
 
@@ -43,7 +43,7 @@ fn side(own: Vec2) -> Side {
 pub struct GoalieWhereabouts {
     pub is_out: bool,
     /// The side by which it crossed the border last.
-    pub side: Option<Side>,
+    pub side: Option<GoalSide>,
     /// Milliseconds on the goalie's clock.
     time: u32,
     /// The tick in which it was heard.
@@ -72,9 +72,9 @@ impl GoalieWhereabouts {
     /// The y coordinate, m, so far from the middle on the side away from where the goalie crossed last.
     pub fn away(&self, y: f32, own: Vec2) -> f32 {
         match self.side {
-            Some(Side::Left) => -y,
-            Some(Side::Right) => y,
-            Some(Side::Centre) | None => y.copysign(own.y),
+            Some(GoalSide::Left) => -y,
+            Some(GoalSide::Right) => y,
+            Some(GoalSide::Centre) | None => y.copysign(own.y),
         }
     }
 }
@@ -91,11 +91,11 @@ mod tests {
         assert_eq!(watch.update(Vec2::new(-4.0, 0.0), AREA, true), None);
         assert_eq!(watch.update(Vec2::new(-3.45, 1.0), AREA, true), None, "on the border");
         let left = watch.update(Vec2::new(-3.3, 1.0), AREA, true);
-        assert_eq!(left, Some((GoalieBehaviour::Leaving, Side::Left)));
+        assert_eq!(left, Some((GoalieBehaviour::Leaving, GoalSide::Left)));
         assert_eq!(watch.update(Vec2::new(-2.0, 1.0), AREA, false), None);
         assert_eq!(watch.update(Vec2::new(-3.45, 0.0), AREA, false), None, "on the border");
         let entered = watch.update(Vec2::new(-3.6, 0.0), AREA, false);
-        assert_eq!(entered, Some((GoalieBehaviour::Entering, Side::Centre)));
+        assert_eq!(entered, Some((GoalieBehaviour::Entering, GoalSide::Centre)));
     }
 
     #[test]
@@ -103,15 +103,15 @@ mod tests {
         assert_eq!(BorderWatch::default().update(Vec2::new(0.0, 0.0), AREA, false), None);
     }
 
-    fn news(time: u32, behaviour: GoalieBehaviour, side: Side) -> GoalieNews {
+    fn news(time: u32, behaviour: GoalieBehaviour, side: GoalSide) -> GoalieNews {
         GoalieNews { time, robot: 0, behaviour, side }
     }
 
     #[test]
     fn overtaken_goalie_news_changes_nothing() {
         let mut known = GoalieWhereabouts::default();
-        known.hear(&news(200, GoalieBehaviour::Entering, Side::Left), 12);
-        known.hear(&news(100, GoalieBehaviour::Leaving, Side::Right), 14);
+        known.hear(&news(200, GoalieBehaviour::Entering, GoalSide::Left), 12);
+        known.hear(&news(100, GoalieBehaviour::Leaving, GoalSide::Right), 14);
         assert!(!known.is_out);
         assert_eq!(known.away(1.2, Vec2::ZERO), -1.2);
     }
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn a_goalie_of_which_nothing_was_heard_is_taken_to_be_back() {
         let mut known = GoalieWhereabouts::default();
-        known.hear(&news(100, GoalieBehaviour::Leaving, Side::Centre), 10);
+        known.hear(&news(100, GoalieBehaviour::Leaving, GoalSide::Centre), 10);
         known.forget(70, 60);
         assert!(known.is_out);
         known.forget(71, 60);

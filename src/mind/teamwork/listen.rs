@@ -32,6 +32,15 @@ pub(super) fn hear_news(
     }
 }
 
+/// The last system of the stage: a robot that has decided has read its inbox, and one that does not hear reads nothing.
+pub(super) fn take_messages(clock: Res<Clock>, mut robots: Query<(&Robot, &mut Inbox)>) {
+    for (robot, mut inbox) in &mut robots {
+        if robot.is_due(clock.tick) || !robot.condition.hears() {
+            inbox.0.clear();
+        }
+    }
+}
+
 impl TeamPicture {
     fn hear(&mut self, received: &Received, tick: u64) {
         match &received.message {
@@ -42,7 +51,7 @@ impl TeamPicture {
             Message::Goalie(news) => self.goalie.hear(news, tick),
             Message::Values(values) => self.hear_values(received, values, tick),
             Message::BallReport(report) => self.reports.hear(received.from, report, tick),
-            Message::Position(_) | Message::RoleSwap(_) | Message::Book(_) => {}
+            Message::Position(_) | Message::RoleSwap(_) | Message::Book(_) | Message::Text(_) => {}
         }
     }
 

@@ -26,7 +26,13 @@ pub use swap::Swapping;
 use crate::schedule::{Tick, TickSystems};
 
 pub(super) fn plugin(app: &mut App) {
-    let in_order =
-        (listen::hear_news, swap::swap_roles, talk::claim_ball, booking::book_ball, talk::tell_team).chain();
-    app.add_systems(Tick, in_order.in_set(TickSystems::Teamwork));
+    let in_order = (
+        listen::hear_news,
+        swap::swap_roles,
+        talk::claim_ball,
+        booking::book_ball,
+        talk::send_news,
+        listen::take_messages,
+    );
+    app.add_systems(Tick, in_order.chain().in_set(TickSystems::Teamwork));
 }

@@ -34,6 +34,8 @@ pub struct TeamPicture {
     /// If the robot is the goalie.
     pub border: BorderWatch,
     pub said: Said,
+    /// A position message is due at once, for it carries a new configuration.
+    pub announce: bool,
 }
 
 /// When a robot said what last, in ticks.
@@ -63,6 +65,7 @@ impl TeamPicture {
             booking: Standing::default(),
             border: BorderWatch::default(),
             said: Said::default(),
+            announce: false,
         }
     }
 

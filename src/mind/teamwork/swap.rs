@@ -219,7 +219,7 @@ impl SwapperItem<'_, '_> {
         let swapping = &mut *self.swapping;
         for effect in swapping.machine.step(input) {
             match effect {
-                Effect::Send { to, message } => self.client.send(to, &message),
+                Effect::Send { to, message } => self.client.send(to, &Message::RoleSwap(message)),
                 Effect::Start(timer) => {
                     let seconds = match timer {
                         Timer::Lock => timers.lock,
@@ -229,7 +229,7 @@ impl SwapperItem<'_, '_> {
                     swapping.deadlines[timer as usize] = Some(clock.tick + clock.ticks(seconds));
                 }
                 Effect::Stop(timer) => swapping.deadlines[timer as usize] = None,
-                Effect::Announce => self.picture.said.position = None,
+                Effect::Announce => self.picture.announce = true,
                 Effect::Finished(Outcome::Completed) => {
                     if let Some(planned) = swapping.planned.take() {
                         self.picture.roles = planned;

@@ -1,4 +1,4 @@
-//! What a robot tells its team: whether it has the ball, whether the goalie is out, where it is (figure 3).
+//! What a robot sends to its team: whether it has the ball, whether the goalie is out, where it is (figure 3).
 
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use super::picture::TeamPicture;
 use super::swap::Swapping;
 use crate::clock::Clock;
-use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Position, Values};
+use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Message, Position, Values};
 use crate::comms::tcm::TcmClient;
 use crate::geometry::unit;
 use crate::ids::RobotId;
@@ -73,7 +73,7 @@ pub(super) struct Speaker {
     client: &'static mut TcmClient,
 }
 
-pub(super) fn tell_team(
+pub(super) fn send_news(
     clock: Res<Clock>,
     pitch: Res<Pitch>,
     strategies: Res<Strategies>,
@@ -88,20 +88,20 @@ pub(super) fn tell_team(
         if !robot.model.is_localised() {
             continue;
         }
-        robot.tell_of_ball(&strategy.teamwork.talk, &clock);
+        robot.send_have_ball(&strategy.teamwork.talk, &clock);
         if strategy.teamwork.goalie.is_some_and(|goalie| usize::from(goalie) == robot.role.0) {
-            robot.tell_of_goal(strategy, &pitch, &clock);
+            robot.send_goalie_news(strategy, &pitch, &clock);
         }
-        robot.tell_of_place(&strategy.teamwork.talk, &clock);
+        robot.send_position(&strategy.teamwork.talk, &clock);
         if strategy.teamwork.has(Mechanism::BallReports) {
-            robot.report_ball(&strategy.teamwork.talk, &clock);
+            robot.send_ball_report(&strategy.teamwork.talk, &clock);
         }
     }
 }
 
 impl SpeakerItem<'_, '_> {
     /// A claim is told when it begins, again and again while it lasts, and once when it ends.
-    fn tell_of_ball(&mut self, talk: &Talk, clock: &Clock) {
+    fn send_have_ball(&mut self, talk: &Talk, clock: &Clock) {
         let (has, said) = (self.picture.has_ball, self.picture.said.have_ball);
         let is_due = match said {
             Some(since) => !has || clock.tick >= since + clock.ticks(talk.claim_every),
@@ -109,63 +109,50 @@ impl SpeakerItem<'_, '_> {
         };
         if is_due {
             self.picture.said.have_ball = has.then_some(clock.tick);
-            self.client.broadcast(&HaveBall {
-                time: milliseconds(clock),
-                robot: self.id.number,
-                have_ball: has,
-                role: self.role.0 as RoleIndex,
-            });
+            let (time, robot, role) = (milliseconds(clock), self.id.number, self.role.0 as RoleIndex);
+            self.client.broadcast(&Message::HaveBall(HaveBall { time, robot, have_ball: has, role }));
         }
     }
 
-    fn tell_of_goal(&mut self, strategy: &Strategy, pitch: &Pitch, clock: &Clock) {
+    fn send_goalie_news(&mut self, strategy: &Strategy, pitch: &Pitch, clock: &Clock) {
         let own = self.model.pose.position;
         let acquires = state(self.activity, strategy).acquires;
         if let Some((behaviour, side)) = self.picture.border.update(own, pitch.own_penalty_area(), acquires) {
-            self.client.broadcast(&GoalieNews {
-                time: milliseconds(clock),
-                robot: self.id.number,
-                behaviour,
-                side,
-            });
+            let (time, robot) = (milliseconds(clock), self.id.number);
+            self.client.broadcast(&Message::Goalie(GoalieNews { time, robot, behaviour, side }));
         }
     }
 
-    fn tell_of_place(&mut self, talk: &Talk, clock: &Clock) {
+    fn send_position(&mut self, talk: &Talk, clock: &Clock) {
         let is_due = |last: u64| clock.tick >= last + clock.ticks(talk.position_every);
-        if !self.picture.said.position.is_none_or(is_due) {
+        if !std::mem::take(&mut self.picture.announce) && !self.picture.said.position.is_none_or(is_due) {
             return;
         }
         self.picture.said.position = Some(clock.tick);
         let pose = self.model.pose;
-        self.client.broadcast(&Position {
-            time: milliseconds(clock),
-            robot: self.id.number,
+        let (time, robot) = (milliseconds(clock), self.id.number);
+        self.client.broadcast(&Message::Position(Position {
+            time,
+            robot,
             position: pose.position,
             heading: unit(pose.heading),
             configuration: self.swapping.and_then(|swapping| swapping.machine.configuration()).cloned(),
-        });
+        }));
         if let Some((values, wish)) = self.swapping.and_then(|swapping| swapping.values.clone()) {
-            self.client.broadcast(&Values {
-                time: milliseconds(clock),
-                robot: self.id.number,
-                values: values.to_vec(),
-                wish,
-            });
+            self.client.broadcast(&Message::Values(Values { time, robot, values: values.to_vec(), wish }));
         }
     }
-}
 
-impl SpeakerItem<'_, '_> {
     /// A ball is reported again and again while it is in sight.
-    fn report_ball(&mut self, talk: &Talk, clock: &Clock) {
+    fn send_ball_report(&mut self, talk: &Talk, clock: &Clock) {
         let every = clock.ticks(talk.ball_every);
         let is_due = self.picture.said.ball.is_none_or(|last| clock.tick >= last + every);
         let in_sight = |seen: u64| clock.tick.saturating_sub(seen) <= every;
         if let Some(ball) = self.model.ball.filter(|ball| is_due && in_sight(ball.seen)) {
             self.picture.said.ball = Some(clock.tick);
             let age = clock.tick.saturating_sub(ball.seen) as f32 * clock.dt;
-            self.client.broadcast(&BallReport { time: milliseconds(clock), position: ball.position, age });
+            let report = BallReport { time: milliseconds(clock), position: ball.position, age };
+            self.client.broadcast(&Message::BallReport(report));
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::comms::tcm::client::QueueCounters;
 use crate::comms::tcm::counters::{Dropped, TypeCount, TypeCounters};
+use crate::comms::tcm::queues::QueueCounters;
 use crate::comms::tcm::{DataType, Module};
 
 /// What was counted, of one robot or of several together.

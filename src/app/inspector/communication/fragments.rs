@@ -62,7 +62,7 @@ pub fn show(ui: &mut egui::Ui, robot: Option<(RobotId, &Assembly)>, clock: &Cloc
         ui.vertical(|ui| {
             let limits = assembly.limits();
             ui.weak("Limits");
-            let patience = format::seconds(format::span(0, limits.patience, clock.dt));
+            let timeout = format::seconds(format::span(0, limits.timeout, clock.dt));
             for (name, value, tip) in [
                 (
                     "unfinished",
@@ -75,7 +75,7 @@ pub fn show(ui: &mut egui::Ui, robot: Option<(RobotId, &Assembly)>, clock: &Cloc
                     format!("{} of {}", kilobytes(assembly.memory()), kilobytes(limits.memory())),
                     "Memory of the tables, of the most that they may take",
                 ),
-                ("patience", patience, "How long fragments are kept while some are missing"),
+                ("timeout", timeout, "How long fragments are kept while some are missing"),
             ] {
                 row(ui, &LIMIT, [name.to_owned(), value]).on_hover_text(tip);
             }
@@ -108,7 +108,7 @@ fn fates(counters: &AssemblyCounters) -> [u64; 9] {
 fn show_message(ui: &mut egui::Ui, message: &Unfinished, assembly: &Assembly, clock: &Clock, names: Names) {
     let age = clock.tick.saturating_sub(message.since);
     let cells = [
-        message.source.entity.to_string(),
+        message.source.peer.to_string(),
         message.source.module.to_string(),
         names(message.data_type),
         message.counter.to_string(),
@@ -128,7 +128,7 @@ fn show_message(ui: &mut egui::Ui, message: &Unfinished, assembly: &Assembly, cl
     ui.painter().rect_filled(whole, 2.0, colours::egui(colours::SUNKEN));
     let have = whole.with_max_x(whole.left() + share * room);
     ui.painter().rect_filled(have, 2.0, colours::egui(colours::ACCENT));
-    let left = assembly.limits().patience.saturating_sub(age);
+    let left = assembly.limits().timeout.saturating_sub(age);
     let left = format::seconds(format::span(0, left, clock.dt));
     shown.on_hover_text(format!("It is given up in {left} unless the rest arrives"));
 }

@@ -88,7 +88,7 @@ struct CommunicationData<'w, 's> {
 impl CommunicationData<'_, '_> {
     fn sums(&self, whose: Whose) -> SummedCounters {
         let mut sums = SummedCounters::default();
-        sums.name(self.registry.types().map(|(data_type, known)| (known.module, data_type)));
+        sums.name(self.registry.types().map(|known| (known.module, known.number)));
         for (id, tcm, client, _) in self.robots.iter() {
             if whose.includes(*id, self.selected.0) {
                 sums.add(&tcm.counters);
@@ -105,8 +105,8 @@ impl CommunicationData<'_, '_> {
     }
 
     fn name_of(&self, data_type: DataType) -> String {
-        let known = self.registry.types().find(|(known, _)| *known == data_type);
-        known.map_or_else(|| data_type.to_string(), |(_, registered)| registered.name.to_owned())
+        let known = self.registry.types().find(|known| known.number == data_type);
+        known.map_or_else(|| data_type.to_string(), |known| known.name.to_owned())
     }
 }
 

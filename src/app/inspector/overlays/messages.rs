@@ -10,7 +10,7 @@ use crate::app::view::colours;
 use crate::app::view::picture::visuals::BodyVisual;
 use crate::app::view::state::{Overlay, Overlays, Playback};
 use crate::clock::Clock;
-use crate::comms::radio::{Outcome, RadioLog, Transmission};
+use crate::comms::radio::{RadioRecord, Transmission, TransmissionState};
 use crate::ids::RobotId;
 
 /// How long the line of a message that has arrived fades, and how long a lost one falls, s.
@@ -43,8 +43,8 @@ fn look(message: &Transmission, now: f64, dt: f32) -> Option<Look> {
     if sent < 0.0 {
         return None;
     }
-    match message.outcome {
-        Outcome::InFlight(due) | Outcome::Arrived(due) => {
+    match message.state {
+        TransmissionState::InFlight(due) | TransmissionState::Arrived(due) => {
             let arrived = since(due);
             if arrived < 0.0 {
                 let whole = due.saturating_sub(message.sent).max(1) as f32 * dt;
@@ -53,7 +53,7 @@ fn look(message: &Transmission, now: f64, dt: f32) -> Option<Look> {
                 (arrived < FADE).then(|| Look::Fades(1.0 - arrived / FADE))
             }
         }
-        Outcome::Lost(loss) => {
+        TransmissionState::Lost(loss) => {
             let at = way_of_a_lost_one(loss);
             if sent < WAY_TO_LOSS {
                 return Some(Look::Travels(at * sent / WAY_TO_LOSS));
@@ -66,7 +66,7 @@ fn look(message: &Transmission, now: f64, dt: f32) -> Option<Look> {
 
 pub(super) fn draw(
     (overlays, view): (Res<Overlays>, Res<RadioView>),
-    (clock, playback, log): (Res<Clock>, Res<Playback>, Res<RadioLog>),
+    (clock, playback, radio): (Res<Clock>, Res<Playback>, Res<RadioRecord>),
     shown: Query<&BodyVisual>,
     camera: Query<(&Camera, &GlobalTransform), With<Camera2d>>,
     mut pens: Pens,
@@ -81,12 +81,13 @@ pub(super) fn draw(
     let place_of = |robot: RobotId| {
         shown.iter().find(|shown| shown.robot == Some(robot)).map(|shown| shown.pose.position)
     };
-    let recent = log.entries().rev().take_while(|message| message.sent as f64 >= first);
+    let recent = radio.transmissions().rev().take_while(|message| message.sent as f64 >= first);
     for message in recent.filter(|message| view.filter.passes(message)) {
         let Some(look) = look(message, now, clock.dt) else { continue };
-        let (Some(from), Some(to)) = (place_of(message.from), place_of(message.to)) else { continue };
-        let tint = colours::team_text(message.from.team);
-        let radius = if is_of_a_swap(message.kind) { DOT.1 } else { DOT.0 };
+        let packet = &message.packet;
+        let (Some(from), Some(to)) = (place_of(packet.from), place_of(packet.to)) else { continue };
+        let tint = colours::team_text(packet.from.team);
+        let radius = if is_of_a_swap(packet.kind) { DOT.1 } else { DOT.0 };
         match look {
             Look::Travels(share) => {
                 let at = from.lerp(to, share);
@@ -117,41 +118,32 @@ fn dot(pens: &mut Pens, at: Vec2, radius: f32, tint: Color) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::comms::messages::MessageKind;
-    use crate::comms::radio::Loss;
+    use crate::comms::radio::{Loss, Packet};
+    use crate::comms::tcm::DataType;
     use crate::ids::Team;
 
     const DT: f32 = 0.01;
 
-    fn looks(outcome: Outcome, now: f64) -> Option<Look> {
+    fn looks(state: TransmissionState, now: f64) -> Option<Look> {
         let (from, to) = (RobotId::new(Team::Home, 1), RobotId::new(Team::Home, 2));
-        let message = Transmission {
-            id: 0,
-            kind: MessageKind::Lock,
-            sequence: None,
-            from,
-            to,
-            sent: 100,
-            outcome,
-            late: false,
-            doubled: false,
-        };
+        let packet = Packet { kind: DataType::LOCK, from, to, bytes: [].into() };
+        let message = Transmission { id: 0, packet, sent: 100, state, late: false, doubled: false };
         look(&message, now, DT)
     }
 
     #[test]
     fn a_message_travels_between_the_ticks_and_fades_where_it_arrived() {
-        for outcome in [Outcome::Arrived(104), Outcome::InFlight(104)] {
-            assert_eq!(looks(outcome, 99.0), None);
-            assert_eq!(looks(outcome, 101.0), Some(Look::Travels(0.25)));
-            assert_eq!(looks(outcome, 104.0), Some(Look::Fades(1.0)));
-            assert_eq!(looks(outcome, 130.0), None);
+        for state in [TransmissionState::Arrived(104), TransmissionState::InFlight(104)] {
+            assert_eq!(looks(state, 99.0), None);
+            assert_eq!(looks(state, 101.0), Some(Look::Travels(0.25)));
+            assert_eq!(looks(state, 104.0), Some(Look::Fades(1.0)));
+            assert_eq!(looks(state, 130.0), None);
         }
     }
 
     #[test]
     fn a_lost_message_falls_where_it_was_lost() {
-        let lost = |loss, now| looks(Outcome::Lost(loss), now);
+        let lost = |loss, now| looks(TransmissionState::Lost(loss), now);
         assert!(matches!(lost(Loss::Chance, 102.0), Some(Look::Travels(share)) if share < 0.5));
         assert!(matches!(lost(Loss::Chance, 110.0), Some(Look::Falls { at, .. }) if at == 0.5));
         assert!(matches!(lost(Loss::Deaf, 110.0), Some(Look::Falls { at, .. }) if at > 0.5));

@@ -11,8 +11,9 @@ use super::layout::{Arrow, Axes, End, Labels};
 use super::locks::{attempt_story, lock_story};
 use super::words;
 use crate::app::view::colours;
-use crate::comms::messages::MessageKind;
+use crate::comms::messages::Message;
 use crate::comms::radio::Transmission;
+use crate::comms::tcm::Data;
 use crate::ids::RobotId;
 use crate::robot::Condition;
 
@@ -47,9 +48,12 @@ fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
     ui.horizontal_wrapped(|ui| {
         show_spans(ui, view);
         ui.separator();
-        for kind in MessageKind::ALL {
-            ui.checkbox(view.filter.kind(kind), kind.to_string())
-                .on_hover_text("Whether these messages are shown, here and on the pitch");
+        for known in Message::TYPES {
+            let mut shown = view.filter.shows_kind(known.number);
+            let tip = "Whether these messages are shown, here and on the pitch";
+            if ui.checkbox(&mut shown, known.name).on_hover_text(tip).changed() {
+                view.filter.show_kind(known.number, shown);
+            }
         }
         ui.separator();
         show_key(ui);
@@ -146,7 +150,7 @@ fn paint_messages(
     pointer: Option<Pos2>,
 ) -> Option<String> {
     let first = axes.start() - f64::from(LONGEST_WAY / heard.clock.dt);
-    let recent = heard.log.entries().rev().take_while(|message| message.sent as f64 >= first);
+    let recent = heard.radio.transmissions().rev().take_while(|message| message.sent as f64 >= first);
     let shown = recent.filter(|message| view.filter.passes(message));
     let arrows: Vec<(&Transmission, Arrow)> =
         shown.filter_map(|message| Some((message, axes.arrow(message, lanes)?))).collect();
@@ -169,14 +173,14 @@ fn paint_messages(
 fn colour(message: &Transmission, end: End) -> Color32 {
     match end {
         End::Lost(_) => colours::egui(colours::LOST),
-        _ if is_of_a_swap(message.kind) => colours::egui(colours::PILOT),
-        _ => colours::egui(colours::team_text(message.from.team)).gamma_multiply(0.75),
+        _ if is_of_a_swap(message.packet.kind) => colours::egui(colours::PILOT),
+        _ => colours::egui(colours::team_text(message.packet.from.team)).gamma_multiply(0.75),
     }
 }
 
 fn paint_arrow(painter: &egui::Painter, message: &Transmission, arrow: &Arrow, plain: bool) {
     let colour = colour(message, arrow.end);
-    let stroke = Stroke::new(if is_of_a_swap(message.kind) { 1.6 } else { 1.1 }, colour);
+    let stroke = Stroke::new(if is_of_a_swap(message.packet.kind) { 1.6 } else { 1.1 }, colour);
     let ends = [arrow.from, arrow.to];
     if message.late && !plain {
         painter.extend(egui::Shape::dashed_line(&ends, stroke, 5.0, 3.5));
@@ -219,12 +223,14 @@ fn paint_labels(painter: &egui::Painter, axes: &Axes, arrows: &[(&Transmission, 
             break;
         }
         let mut last = None;
-        for (message, arrow) in arrows.iter().filter(|(message, _)| is_of_a_swap(message.kind) == important) {
-            let what = (message.kind, message.sequence, message.from, message.sent);
-            if last.replace(what) == Some(what) {
+        for (message, arrow) in
+            arrows.iter().filter(|(message, _)| is_of_a_swap(message.packet.kind) == important)
+        {
+            let text = words::label(message);
+            let what = (text.clone(), message.packet.from, message.sent);
+            if last.replace(what.clone()) == Some(what) {
                 continue;
             }
-            let text = words::label(message);
             let galley = painter.layout_no_wrap(text, font.clone(), colour(message, arrow.end));
             let size = galley.size() + vec2(4.0, -2.0);
             let Some(place) = labels.place(arrow, size, axes.rect, important) else { continue };

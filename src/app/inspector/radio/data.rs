@@ -9,7 +9,7 @@ use super::history::History;
 use super::locks::SwapAttempt;
 use crate::app::view::state::{Playback, Selected};
 use crate::clock::Clock;
-use crate::comms::radio::{Conditions, RadioLog, Traffic};
+use crate::comms::radio::{Interference, RadioRecord};
 use crate::game::record::Record;
 use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::Lock;
@@ -63,9 +63,8 @@ pub enum RadioPage {
 pub struct RadioData<'w, 's> {
     pub clock: Res<'w, Clock>,
     pub playback: Res<'w, Playback>,
-    pub log: Res<'w, RadioLog>,
-    pub traffic: Res<'w, Traffic>,
-    pub conditions: Res<'w, Conditions>,
+    pub radio: Res<'w, RadioRecord>,
+    pub interference: Res<'w, Interference>,
     pub locks: Res<'w, History<Lock>>,
     pub attempts: Res<'w, History<SwapAttempt>>,
     pub beliefs: Res<'w, History<BookingBelief>>,

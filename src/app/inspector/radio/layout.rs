@@ -3,7 +3,7 @@
 
 use bevy_egui::egui::{Pos2, Rect, Vec2, pos2, vec2};
 
-use crate::comms::radio::{Loss, Outcome, Transmission};
+use crate::comms::radio::{Loss, Transmission, TransmissionState};
 use crate::ids::RobotId;
 
 /// The chart's rectangle, the time that it shows and its number of lanes.
@@ -60,17 +60,17 @@ impl Axes {
     /// The arrow of a message between two of these robots; none if no part of it is within the time that is shown.
     pub fn arrow(&self, message: &Transmission, lanes: &[RobotId]) -> Option<Arrow> {
         let lane = |robot| lanes.iter().position(|lane| *lane == robot);
-        let (from_y, to_y) = (self.y(lane(message.from)?), self.y(lane(message.to)?));
+        let (from_y, to_y) = (self.y(lane(message.packet.from)?), self.y(lane(message.packet.to)?));
         let sent = message.sent as f64;
         let from = pos2(self.x(sent), from_y);
-        let (to, end) = match message.outcome {
-            Outcome::Arrived(tick) => (pos2(self.x(tick as f64), to_y), End::Arrived),
-            Outcome::InFlight(due) => {
+        let (to, end) = match message.state {
+            TransmissionState::Arrived(tick) => (pos2(self.x(tick as f64), to_y), End::Arrived),
+            TransmissionState::InFlight(due) => {
                 let whole = pos2(self.x(due as f64), to_y);
                 let share = (self.now - sent) / (due as f64 - sent).max(1.0);
                 (from.lerp(whole, share.clamp(0.0, 1.0) as f32), End::OnItsWay)
             }
-            Outcome::Lost(loss) => {
+            TransmissionState::Lost(loss) => {
                 let share = way_of_a_lost_one(loss);
                 (from.lerp(pos2(from.x + LEAN, to_y), share), End::Lost(loss))
             }
@@ -142,7 +142,7 @@ impl Labels {
 mod tests {
     use super::super::samples::{home, transmission};
     use super::*;
-    use crate::comms::messages::MessageKind;
+    use crate::comms::tcm::DataType;
 
     /// Ten ticks on a hundred points, up to tick 110, with two lanes of 20 points.
     fn axes() -> Axes {
@@ -150,26 +150,26 @@ mod tests {
         Axes { rect, now: 110.0, span: 10.0, lanes: 2 }
     }
 
-    fn arrow(sent: u64, outcome: Outcome) -> Option<Arrow> {
-        axes().arrow(&transmission(MessageKind::Lock, 1, 2, sent, outcome), &[home(1), home(2)])
+    fn arrow(sent: u64, state: TransmissionState) -> Option<Arrow> {
+        axes().arrow(&transmission(DataType::LOCK, 1, 2, sent, state), &[home(1), home(2)])
     }
 
     #[test]
     fn an_arrow_goes_from_the_senders_lane_to_the_receivers_between_the_two_times() {
-        let arrow = arrow(102, Outcome::Arrived(105)).unwrap();
+        let arrow = arrow(102, TransmissionState::Arrived(105)).unwrap();
         assert_eq!((arrow.from, arrow.to), (pos2(20.0, 10.0), pos2(50.0, 30.0)));
         assert_eq!(arrow.end, End::Arrived);
     }
 
     #[test]
     fn a_message_on_its_way_is_as_far_as_the_time() {
-        let arrow = arrow(108, Outcome::InFlight(112)).unwrap();
+        let arrow = arrow(108, TransmissionState::InFlight(112)).unwrap();
         assert_eq!((arrow.to, arrow.end), (pos2(100.0, 20.0), End::OnItsWay));
     }
 
     #[test]
     fn a_lost_message_ends_between_the_lanes() {
-        let lost = |loss| arrow(102, Outcome::Lost(loss)).unwrap();
+        let lost = |loss| arrow(102, TransmissionState::Lost(loss)).unwrap();
         let (chance, deaf, mute) = (lost(Loss::Chance), lost(Loss::Deaf), lost(Loss::Mute));
         assert_eq!(chance.to, pos2(25.0, 20.0));
         assert!(mute.to.y < chance.to.y && chance.to.y < deaf.to.y && deaf.to.y < 30.0);
@@ -178,9 +178,9 @@ mod tests {
 
     #[test]
     fn only_what_is_within_the_time_and_on_a_lane_is_drawn() {
-        assert!(arrow(90, Outcome::Arrived(95)).is_none());
-        assert!(arrow(99, Outcome::Arrived(101)).is_some());
-        let stranger = transmission(MessageKind::Lock, 1, 3, 102, Outcome::Arrived(105));
+        assert!(arrow(90, TransmissionState::Arrived(95)).is_none());
+        assert!(arrow(99, TransmissionState::Arrived(101)).is_some());
+        let stranger = transmission(DataType::LOCK, 1, 3, 102, TransmissionState::Arrived(105));
         assert_eq!(axes().arrow(&stranger, &[home(1), home(2)]), None);
     }
 

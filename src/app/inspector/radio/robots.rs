@@ -52,19 +52,19 @@ fn show_robot(
 ) {
     let name = RichText::new(robot.to_string()).color(colours::egui(colours::team_text(robot.team)));
     ui.label(name);
-    let sent = heard.traffic.sent_by(robot);
+    let sent = heard.radio.sent_by(robot);
     ui.horizontal(|ui| {
         figure(ui, sent.sent.to_string().into());
         figure(ui, sent.delivered.to_string().into());
         figure(ui, sent.lost_in_all().to_string().into()).on_hover_text(reasons(&sent));
         figure(ui, sent.late.to_string().into());
         figure(ui, format!("{:.1}", sent.bytes as f64 / 1000.0).into());
-        figure(ui, heard.traffic.sent_to(robot).delivered.to_string().into());
+        figure(ui, heard.radio.sent_to(robot).delivered.to_string().into());
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         show_ailments(ui, robot, condition, requests);
-        show_cut_off(ui, robot, heard.conditions.cut_off.contains(&robot), requests);
+        show_cut_off(ui, robot, heard.interference.cut_off.contains(&robot), requests);
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;

@@ -40,8 +40,8 @@ pub fn show(ui: &mut egui::Ui, team: Team, heard: &RadioData, view: &mut RadioVi
 /// Extra loss, extra delay and the jam.
 fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     ui.spacing_mut().slider_width = SLIDER;
-    let conditions = &heard.conditions;
-    let loss = Pending::new(conditions.extra_loss, requests, |request| match request {
+    let interference = &heard.interference;
+    let loss = Pending::new(interference.extra_loss, requests, |request| match request {
         Request::Air(Weather::ExtraLoss(share)) => Some(*share),
         _ => None,
     })
@@ -53,7 +53,7 @@ fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     if ui.add(slider).on_hover_text(tip).changed() {
         requests.ask(Request::Air(Weather::ExtraLoss(percent / 100.0)));
     }
-    let delay = Pending::new(conditions.extra_delay, requests, |request| match request {
+    let delay = Pending::new(interference.extra_delay, requests, |request| match request {
         Request::Air(Weather::ExtraDelay(seconds)) => Some(*seconds),
         _ => None,
     })
@@ -65,7 +65,7 @@ fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     if ui.add(slider).on_hover_text("Added to the way of every message").changed() {
         requests.ask(Request::Air(Weather::ExtraDelay(seconds)));
     }
-    let jammed = Pending::new(conditions.jammed, requests, |request| match request {
+    let jammed = Pending::new(interference.jammed, requests, |request| match request {
         Request::Air(Weather::Jam(jammed)) => Some(*jammed),
         _ => None,
     })
@@ -75,7 +75,7 @@ fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     if ui.add(egui::Button::new(words).selected(jammed)).on_hover_text(tip).clicked() {
         requests.ask(Request::Air(Weather::Jam(!jammed)));
     }
-    if !conditions.partitions.is_empty() {
+    if !interference.partitions.is_empty() {
         let heal = ui.button("Heal").on_hover_text("Ends all partitions");
         if heal.clicked() {
             requests.ask(Request::Air(Weather::Heal));

@@ -18,7 +18,7 @@ use super::visuals::BodyVisual;
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::state::{FreeArea, Overlay, Overlays, PanelSystems, Screen, Selected, nearest_within};
 use crate::app::view::style::{SMALL, font};
-use crate::comms::radio::Conditions;
+use crate::comms::radio::Interference;
 use crate::ids::RobotId;
 use crate::mind::teamwork::Swapping;
 use crate::pitch::BallKind;
@@ -101,7 +101,7 @@ pub fn off_text(state: &MatchState, robot: RobotId) -> String {
 fn write_on_pitch(
     mut contexts: EguiContexts,
     (area, camera, overlays, selected): (Res<FreeArea>, Res<PitchCamera>, Res<Overlays>, Res<Selected>),
-    (state, strategies, conditions): (Res<MatchState>, Res<Strategies>, Res<Conditions>),
+    (state, strategies, interference): (Res<MatchState>, Res<Strategies>, Res<Interference>),
     // Labels keep their places from frame to frame, so that they do not hop about.
     (mut placed, mut kept): (ResMut<LabelPlacement>, Local<BTreeMap<RobotId, LabelPlace>>),
     shown: Query<(&BodyVisual, Option<&Plate>)>,
@@ -146,7 +146,7 @@ fn write_on_pitch(
         }
         write_number(&painter, at, &plate, camera.scale);
         let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
-        let cut_off = conditions.cut_off.contains(robot.id);
+        let cut_off = interference.cut_off.contains(robot.id);
         let signs = StatusIcon::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
         let corner = nearest_within(edge, middle + egui::vec2(0.8, -0.8) * reach);
         let corner =

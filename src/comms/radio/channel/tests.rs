@@ -5,17 +5,17 @@ mod statistics;
 use proptest::prelude::*;
 
 use super::*;
-use crate::comms::messages::MessageKind;
-use crate::comms::radio::conditions::Partition;
 use crate::comms::radio::faults::{FaultRule, Which};
+use crate::comms::radio::interference::Partition;
 use crate::comms::radio::preset::{LateTail, Latency, LossModel};
+use crate::comms::tcm::DataType;
 use crate::ids::Team;
 
 const SEED: Seed = Seed(2001);
 
 struct Bench {
     channel: Channel,
-    conditions: Conditions,
+    interference: Interference,
     faults: FaultRules,
     clock: Clock,
 }
@@ -29,24 +29,28 @@ impl Bench {
     fn at(hz: f32, radio: Radio) -> Bench {
         Bench {
             channel: Channel::new(SEED, radio),
-            conditions: Conditions::default(),
+            interference: Interference::default(),
             faults: FaultRules::default(),
             clock: Clock::new(hz),
         }
     }
 
-    fn send(&mut self, packet: &Packet) -> Fate {
-        self.channel.send(packet, &self.conditions, &mut self.faults, &self.clock)
+    fn send(&mut self, packet: &Packet) -> Delivery {
+        self.send_over(3.0, packet)
+    }
+
+    fn send_over(&mut self, distance: f32, packet: &Packet) -> Delivery {
+        self.channel.send(packet, distance, &self.interference, &mut self.faults, &self.clock)
     }
 
     /// One packet per tick on one link.
-    fn fates(&mut self, n: usize) -> Vec<Fate> {
-        let mut fates = Vec::with_capacity(n);
+    fn deliveries(&mut self, n: usize) -> Vec<Delivery> {
+        let mut deliveries = Vec::with_capacity(n);
         for _ in 0..n {
-            fates.push(self.send(&packet(0, 1)));
+            deliveries.push(self.send(&packet(0, 1)));
             self.clock.tick += 1;
         }
-        fates
+        deliveries
     }
 
     fn reason(&mut self, from: u8, to: u8) -> Option<Loss> {
@@ -59,7 +63,11 @@ fn home(number: u8) -> RobotId {
 }
 
 fn packet(from: u8, to: u8) -> Packet {
-    Packet { kind: MessageKind::Position, from: home(from), to: home(to), bytes: 40, distance: 3.0 }
+    long_packet(from, to, 40)
+}
+
+fn long_packet(from: u8, to: u8, bytes: usize) -> Packet {
+    Packet { kind: DataType::POSITION, from: home(from), to: home(to), bytes: vec![0; bytes].into() }
 }
 
 fn perfect() -> Radio {
@@ -83,8 +91,8 @@ fn jittery() -> Radio {
     Radio { latency: Latency { fixed: 0.005, jitter: 0.01 }, ..perfect() }
 }
 
-fn lost(fates: &[Fate]) -> Vec<bool> {
-    fates.iter().map(|fate| fate.lost.is_some()).collect()
+fn lost(deliveries: &[Delivery]) -> Vec<bool> {
+    deliveries.iter().map(|delivery| delivery.lost.is_some()).collect()
 }
 
 fn drop_all() -> FaultRule {
@@ -93,16 +101,16 @@ fn drop_all() -> FaultRule {
 
 #[test]
 fn a_perfect_radio_delivers_everything_once_and_in_the_next_tick() {
-    for (tick, fate) in Bench::at(60.0, perfect()).fates(1000).iter().enumerate() {
+    for (tick, delivery) in Bench::at(60.0, perfect()).deliveries(1000).iter().enumerate() {
         let arrival = Arrival { due: tick as u64 + 1, late: false, duplicate: false };
-        assert_eq!((fate.copies.as_slice(), fate.lost), ([arrival].as_slice(), None));
+        assert_eq!((delivery.arrivals.as_slice(), delivery.lost), ([arrival].as_slice(), None));
     }
 }
 
 #[test]
 fn nothing_is_heard_beyond_the_range() {
     let mut bench = Bench::new(Radio { range: Some(5.0), ..perfect() });
-    let mut lost = |distance| bench.send(&Packet { distance, ..packet(0, 1) }).lost;
+    let mut lost = |distance| bench.send_over(distance, &packet(0, 1)).lost;
     assert_eq!([lost(4.9), lost(5.0), lost(5.1)], [None, None, Some(Loss::Range)]);
 }
 
@@ -113,35 +121,35 @@ fn a_budget_allows_a_burst_and_refuses_a_message_longer_than_the_bucket() {
     let burst = [bench.reason(0, 1), bench.reason(0, 1), bench.reason(0, 1)];
     assert_eq!(burst, [None, None, Some(Loss::Budget)]);
     bench.clock.tick += 6000;
-    assert_eq!(bench.send(&Packet { bytes: 101, ..packet(0, 1) }).lost, Some(Loss::Budget));
-    assert_eq!(bench.send(&Packet { bytes: 100, ..packet(0, 1) }).lost, None);
+    assert_eq!(bench.send(&long_packet(0, 1, 101)).lost, Some(Loss::Budget));
+    assert_eq!(bench.send(&long_packet(0, 1, 100)).lost, None);
 }
 
 #[test]
 fn jamming_and_separation_lose_everything_and_then_nothing() {
     let mut bench = Bench::new(perfect());
-    bench.conditions.jammed = true;
+    bench.interference.jammed = true;
     assert_eq!(bench.reason(0, 1), Some(Loss::Jammed));
-    bench.conditions.jammed = false;
-    bench.conditions.cut_off.insert(home(0));
+    bench.interference.jammed = false;
+    bench.interference.cut_off.insert(home(0));
     assert_eq!([bench.reason(0, 1), bench.reason(1, 0)], [Some(Loss::CutOff); 2]);
-    bench.conditions.cut_off.clear();
+    bench.interference.cut_off.clear();
     let wall = Partition { reason: "wall".into(), one: [home(0)].into(), other: [home(1)].into() };
-    bench.conditions.partitions.push(wall);
+    bench.interference.partitions.push(wall);
     assert_eq!(
         [bench.reason(0, 1), bench.reason(1, 0), bench.reason(1, 2)],
         [Some(Loss::CutOff), Some(Loss::CutOff), None]
     );
-    bench.conditions.partitions.clear();
+    bench.interference.partitions.clear();
     assert_eq!(bench.reason(0, 1), None);
 }
 
 #[test]
 fn an_extra_delay_holds_everything_up_and_makes_it_late() {
     let mut bench = Bench::at(60.0, Radio { duplication: 1.0, ..perfect() });
-    bench.conditions.extra_delay = 0.5;
-    let fate = bench.send(&packet(0, 1));
-    assert!(fate.copies.iter().all(|copy| copy.due == 30 && copy.late));
+    bench.interference.extra_delay = 0.5;
+    let delivery = bench.send(&packet(0, 1));
+    assert!(delivery.arrivals.iter().all(|copy| copy.due == 30 && copy.late));
 }
 
 #[test]
@@ -155,7 +163,7 @@ fn fault_rules_drop_delay_and_double_packets() {
         rule(4, Act::Duplicate(0.5)),
         rule(4, Act::Delay(1.0)),
     ]);
-    let mut copies = || bench.send(&packet(0, 1)).copies.to_vec();
+    let mut copies = || bench.send(&packet(0, 1)).arrivals.to_vec();
     let arrival = |due, late, duplicate| Arrival { due, late, duplicate };
     assert_eq!(copies(), []);
     assert_eq!(copies(), [arrival(90, true, false)]);
@@ -169,17 +177,17 @@ fn of_several_reasons_the_first_counts() {
     let budget = Some(Budget { bytes_per_second: 1.0, burst: 1.0, shared_by: SharedBy::All });
     let radio = Radio { range: Some(1.0), budget, ..losing(LossModel::Independent(1.0)) };
     let mut bench = Bench::new(radio.clone());
-    bench.conditions =
-        Conditions { extra_loss: 1.0, jammed: true, cut_off: [home(0)].into(), ..Conditions::default() };
+    bench.interference =
+        Interference { extra_loss: 1.0, jammed: true, cut_off: [home(0)].into(), ..Interference::default() };
     bench.faults.add(drop_all());
     let mut reasons = vec![bench.reason(0, 1)];
     bench.faults.clear();
     reasons.push(bench.reason(0, 1));
     bench.channel.set_radio(Radio { budget: None, ..radio });
     reasons.push(bench.reason(0, 1));
-    bench.conditions.jammed = false;
+    bench.interference.jammed = false;
     reasons.push(bench.reason(0, 1));
-    bench.conditions.cut_off.clear();
+    bench.interference.cut_off.clear();
     reasons.push(bench.reason(0, 1));
     bench.channel.set_radio(losing(LossModel::Independent(1.0)));
     reasons.push(bench.reason(0, 1));
@@ -212,12 +220,12 @@ fn another_radio_begins_with_full_buckets() {
 #[test]
 fn the_same_seed_gives_the_same_fates_and_another_seed_others() {
     let radio = Radio { duplication: 0.1, ..losing(LossModel::Independent(0.3)) };
-    let fates = |seed| {
+    let deliveries = |seed| {
         let mut bench = Bench { channel: Channel::new(Seed(seed), radio.clone()), ..Bench::new(perfect()) };
-        bench.fates(1000)
+        bench.deliveries(1000)
     };
-    assert_eq!(fates(1), fates(1));
-    assert_ne!(fates(1), fates(2));
+    assert_eq!(deliveries(1), deliveries(1));
+    assert_ne!(deliveries(1), deliveries(2));
 }
 
 fn any_radio() -> impl Strategy<Value = Radio> {
@@ -245,32 +253,32 @@ proptest! {
         extra_delay in 0.0f32..1.0,
     ) {
         let mut bench = Bench::at(60.0, radio);
-        bench.conditions = Conditions { extra_loss, extra_delay, ..Conditions::default() };
-        for (tick, fate) in (0..).zip(bench.fates(100)) {
-            prop_assert_eq!(fate.copies.is_empty(), fate.lost.is_some());
-            prop_assert!(fate.copies.iter().all(|copy| copy.due > tick));
-            prop_assert!(fate.copies.iter().enumerate().all(|(place, copy)| copy.duplicate == (place > 0)));
+        bench.interference = Interference { extra_loss, extra_delay, ..Interference::default() };
+        for (tick, delivery) in (0..).zip(bench.deliveries(100)) {
+            prop_assert_eq!(delivery.arrivals.is_empty(), delivery.lost.is_some());
+            prop_assert!(delivery.arrivals.iter().all(|copy| copy.due > tick));
+            prop_assert!(delivery.arrivals.iter().enumerate().all(|(place, copy)| copy.duplicate == (place > 0)));
         }
     }
 
     #[test]
     fn other_mechanisms_do_not_change_which_messages_are_lost(radio in any_radio(), jam in 0usize..100) {
-        let plain = lost(&Bench::at(60.0, losing(radio.loss)).fates(210));
+        let plain = lost(&Bench::at(60.0, losing(radio.loss)).deliveries(210));
         let mut bench = Bench::at(60.0, radio);
-        let mut all = lost(&bench.fates(jam));
+        let mut all = lost(&bench.deliveries(jam));
         prop_assert_eq!(&all, &plain[..jam]);
-        bench.conditions.jammed = true;
-        bench.fates(10);
-        bench.conditions.jammed = false;
-        all = lost(&bench.fates(100));
+        bench.interference.jammed = true;
+        bench.deliveries(10);
+        bench.interference.jammed = false;
+        all = lost(&bench.deliveries(100));
         prop_assert_eq!(&all, &plain[jam + 10..jam + 110]);
     }
 
     #[test]
     fn duplicates_do_not_change_the_packets_themselves(radio in any_radio()) {
         let firsts = |radio| {
-            let fates = Bench::at(60.0, radio).fates(100);
-            fates.iter().map(|fate| fate.copies.first().copied()).collect::<Vec<_>>()
+            let deliveries = Bench::at(60.0, radio).deliveries(100);
+            deliveries.iter().map(|delivery| delivery.arrivals.first().copied()).collect::<Vec<_>>()
         };
         prop_assert_eq!(firsts(Radio { duplication: 0.0, ..radio.clone() }), firsts(radio));
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::header::{Header, Malformed};
 use super::limits::{ENTRY_COST, Limits, PIECE_COST};
-use crate::comms::tcm::external_message::{Address, DataType, Entity, ExternalMessage, Module};
+use crate::comms::tcm::external_message::{Address, DataType, ExternalMessage, Module, Peer};
 
 /// Puts messages together from fragments that come in any order, more than once or never, from many sources.
 ///
@@ -16,8 +16,8 @@ use crate::comms::tcm::external_message::{Address, DataType, Entity, ExternalMes
 #[derive(Clone, Debug)]
 pub struct Assembly {
     limits: Limits,
-    open: BTreeMap<Key, Open>,
-    over: BTreeMap<Key, Over>,
+    open: BTreeMap<Key, Partial>,
+    over: BTreeMap<Key, Finished>,
     memory: usize,
     /// Numbers the entries of both tables by age.
     next: u64,
@@ -76,7 +76,7 @@ pub enum Refused {
 }
 
 /// A message's source and counter.
-type Key = (Entity, u32);
+type Key = (Peer, u32);
 
 /// What all fragments of a message have in common.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +91,7 @@ struct Shape {
 }
 
 #[derive(Clone, Debug)]
-struct Open {
+struct Partial {
     shape: Shape,
     since: u64,
     age: u64,
@@ -100,7 +100,7 @@ struct Open {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Over {
+struct Finished {
     shape: Shape,
     since: u64,
     age: u64,
@@ -110,11 +110,6 @@ impl AssemblyCounters {
     /// All datagrams that were none of the TCM, whatever the reason.
     pub fn malformed_in_all(&self) -> u64 {
         self.malformed.iter().sum()
-    }
-
-    /// Those that were malformed in one way.
-    pub fn malformed_as(&self, reason: Malformed) -> u64 {
-        self.malformed[reason.index()]
     }
 }
 
@@ -146,8 +141,8 @@ impl Assembly {
 
     /// The unfinished messages, in the order of source and counter.
     pub fn in_assembly(&self) -> impl ExactSizeIterator<Item = Unfinished> {
-        self.open.iter().map(|(&(entity, counter), open)| Unfinished {
-            source: Address { entity, module: open.shape.module },
+        self.open.iter().map(|(&(peer, counter), open)| Unfinished {
+            source: Address { peer, module: open.shape.module },
             counter,
             data_type: open.shape.data_type,
             have: open.have(),
@@ -177,9 +172,9 @@ impl Assembly {
     /// Gives up the messages whose time is over, and forgets those that were over for as long. Returns how many were
     /// given up.
     pub fn expire(&mut self, now: u64) -> usize {
-        let patience = self.limits.patience;
-        self.over.retain(|_, over| !over.is_forgotten(now, patience));
-        let stale = |(&key, open): (&Key, &Open)| open.is_stale(now, patience).then_some(key);
+        let timeout = self.limits.timeout;
+        self.over.retain(|_, over| !over.is_forgotten(now, timeout));
+        let stale = |(&key, open): (&Key, &Partial)| open.is_stale(now, timeout).then_some(key);
         let stale: Vec<Key> = self.open.iter().filter_map(stale).collect();
         for &key in &stale {
             self.close(now, key);
@@ -212,13 +207,13 @@ impl Assembly {
 
     /// The message that this piece completes.
     fn take(&mut self, now: u64, header: &Header, shape: Shape, piece: &[u8]) -> Option<ExternalMessage> {
-        let key = (header.source.entity, header.counter);
-        let patience = self.limits.patience;
-        if self.open.get(&key).is_some_and(|open| open.is_stale(now, patience)) {
+        let key = (header.source.peer, header.counter);
+        let timeout = self.limits.timeout;
+        if self.open.get(&key).is_some_and(|open| open.is_stale(now, timeout)) {
             self.close(now, key);
             self.counters.expired += 1;
         }
-        if self.over.get(&key).is_some_and(|over| over.shape != shape || over.is_forgotten(now, patience)) {
+        if self.over.get(&key).is_some_and(|over| over.shape != shape || over.is_forgotten(now, timeout)) {
             self.over.remove(&key);
         }
         if self.open.get(&key).is_some_and(|open| open.contradicts(shape, header.index, piece)) {
@@ -244,7 +239,7 @@ impl Assembly {
         let open = self.open.entry(key).or_insert_with(|| {
             *next += 1;
             self.memory += ENTRY_COST;
-            Open { shape, since: now, age: *next, pieces: BTreeMap::new(), bytes: 0 }
+            Partial { shape, since: now, age: *next, pieces: BTreeMap::new(), bytes: 0 }
         });
         open.bytes += piece.len();
         open.pieces.insert(header.index, piece.into());
@@ -278,7 +273,7 @@ impl Assembly {
     }
 
     /// Moves a message to those that are over.
-    fn close(&mut self, now: u64, key: Key) -> Option<Open> {
+    fn close(&mut self, now: u64, key: Key) -> Option<Partial> {
         let open = self.remove(key)?;
         if self.over.len() >= self.limits.messages
             && let Some((&oldest, _)) = self.over.iter().min_by_key(|(_, over)| over.age)
@@ -286,11 +281,11 @@ impl Assembly {
             self.over.remove(&oldest);
         }
         self.next += 1;
-        self.over.insert(key, Over { shape: open.shape, since: now, age: self.next });
+        self.over.insert(key, Finished { shape: open.shape, since: now, age: self.next });
         Some(open)
     }
 
-    fn remove(&mut self, key: Key) -> Option<Open> {
+    fn remove(&mut self, key: Key) -> Option<Partial> {
         let open = self.open.remove(&key)?;
         self.memory -= open.cost();
         Some(open)
@@ -303,19 +298,19 @@ impl Shape {
     }
 }
 
-impl Over {
-    fn is_forgotten(&self, now: u64, patience: u64) -> bool {
-        now.saturating_sub(self.since) >= patience
+impl Finished {
+    fn is_forgotten(&self, now: u64, timeout: u64) -> bool {
+        now.saturating_sub(self.since) >= timeout
     }
 }
 
-impl Open {
+impl Partial {
     fn have(&self) -> u16 {
         u16::try_from(self.pieces.len()).unwrap_or(u16::MAX)
     }
 
-    fn is_stale(&self, now: u64, patience: u64) -> bool {
-        now.saturating_sub(self.since) >= patience
+    fn is_stale(&self, now: u64, timeout: u64) -> bool {
+        now.saturating_sub(self.since) >= timeout
     }
 
     /// Whether a fragment cannot be of the same message.

@@ -4,14 +4,14 @@ use binrw::io::Cursor;
 use binrw::{BinRead, BinWrite, binrw};
 
 use super::LARGEST_PIECE;
-use crate::comms::tcm::external_message::{Address, DataType, Entity, Module};
+use crate::comms::tcm::external_message::{Address, DataType, Module, Peer};
 
 /// The length of a header, bytes.
 pub const HEADER: usize = 28;
 /// The first bytes of every datagram.
 pub const MAGIC: [u8; 3] = *b"TCM";
 /// The version of the layout, the byte after the magic.
-pub const VERSION: u8 = 1;
+pub const VERSION: u8 = 2;
 
 /// What a datagram tells about its message and about its own piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Header {
     pub source: Address,
     pub destination: Address,
     pub data_type: DataType,
-    /// Tells the message from others of the same source entity. May wrap around.
+    /// Tells the message from others of the same source. May wrap around.
     pub counter: u32,
     /// The length of the whole message's data, bytes.
     pub total: u32,
@@ -53,7 +53,7 @@ pub enum Malformed {
 /// The header as it crosses the network.
 #[binrw]
 #[brw(little)]
-struct Wire {
+struct WireHeader {
     magic: [u8; 3],
     version: u8,
     source: WireAddress,
@@ -83,15 +83,14 @@ impl Header {
     /// If anything in it contradicts the format, the rest of the header or the datagram's length.
     pub fn read(bytes: &[u8]) -> Result<(Header, &[u8]), Malformed> {
         let (head, piece) = bytes.split_at_checked(HEADER).ok_or(Malformed::TooShort)?;
-        let wire = Wire::read(&mut Cursor::new(head)).map_err(|_| Malformed::TooShort)?;
+        let wire = WireHeader::read(&mut Cursor::new(head)).map_err(|_| Malformed::TooShort)?;
         if wire.magic != MAGIC {
             return Err(Malformed::Magic);
         }
         if wire.version != VERSION {
             return Err(Malformed::Version);
         }
-        let source =
-            wire.source.address().filter(|source| source.entity.is_one()).ok_or(Malformed::Source)?;
+        let source = wire.source.address().filter(|source| source.peer.is_one()).ok_or(Malformed::Source)?;
         let header = Header {
             source,
             destination: wire.destination.address().ok_or(Malformed::Destination)?,
@@ -114,7 +113,7 @@ impl Header {
     /// A datagram with this header and piece. The piece has to be the one that the header tells of; otherwise
     /// [`Header::read`] refuses what comes out.
     pub fn datagram(&self, piece: &[u8]) -> Vec<u8> {
-        let wire = Wire {
+        let wire = WireHeader {
             magic: MAGIC,
             version: VERSION,
             source: WireAddress::new(self.source),
@@ -153,25 +152,25 @@ impl Header {
 
 impl WireAddress {
     fn new(address: Address) -> WireAddress {
-        let (kind, team, number) = match address.entity {
-            Entity::Robot { team, number } => (0, team, number),
-            Entity::Computer(number) => (1, 0, number),
-            Entity::Team(team) => (2, team, 0),
-            Entity::Everybody => (3, 0, 0),
+        let (kind, team, number) = match address.peer {
+            Peer::Robot { team, number } => (0, team, number),
+            Peer::Computer(number) => (1, 0, number),
+            Peer::Team(team) => (2, team, 0),
+            Peer::Everybody => (3, 0, 0),
         };
         WireAddress { kind, team, number, module: address.module.0 }
     }
 
     /// `None` for an unknown kind, or for a number where there is nothing to number.
     fn address(self) -> Option<Address> {
-        let entity = match (self.kind, self.team, self.number) {
-            (0, team, number) => Entity::Robot { team, number },
-            (1, 0, number) => Entity::Computer(number),
-            (2, team, 0) => Entity::Team(team),
-            (3, 0, 0) => Entity::Everybody,
+        let peer = match (self.kind, self.team, self.number) {
+            (0, team, number) => Peer::Robot { team, number },
+            (1, 0, number) => Peer::Computer(number),
+            (2, team, 0) => Peer::Team(team),
+            (3, 0, 0) => Peer::Everybody,
             _ => return None,
         };
-        Some(Address { entity, module: Module(self.module) })
+        Some(Address { peer, module: Module(self.module) })
     }
 }
 

@@ -14,7 +14,7 @@ pub struct Limits {
     /// The longest data of a message, bytes.
     pub message_bytes: usize,
     /// An unfinished message is given up this many ticks after its first fragment.
-    pub patience: u64,
+    pub timeout: u64,
 }
 
 /// What an entry of either table is counted as besides its pieces, bytes; and a piece besides its bytes. Both are more
@@ -34,8 +34,8 @@ impl Limits {
         if self.messages == 0 {
             return Some(("messages", "must be at least 1, not 0".into()));
         }
-        if self.patience == 0 {
-            return Some(("patience", "must be at least 1, not 0".into()));
+        if self.timeout == 0 {
+            return Some(("timeout", "must be at least 1, not 0".into()));
         }
         let least = self.message_bytes.saturating_add(ENTRY_COST + 2 * PIECE_COST);
         (self.bytes < least).then(|| {
@@ -50,6 +50,6 @@ impl Limits {
 /// Room for a few pictures at a time, and two seconds of 60 ticks.
 impl Default for Limits {
     fn default() -> Limits {
-        Limits { messages: 64, bytes: 4 << 20, message_bytes: 1 << 20, patience: 120 }
+        Limits { messages: 64, bytes: 4 << 20, message_bytes: 1 << 20, timeout: 120 }
     }
 }

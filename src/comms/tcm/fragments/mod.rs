@@ -8,7 +8,7 @@ mod assembly;
 mod header;
 mod limits;
 
-use crate::comms::tcm::external_message::{Entity, ExternalMessage};
+use crate::comms::tcm::external_message::{ExternalMessage, Peer};
 
 pub use assembly::{Assembly, AssemblyCounters, Refused, Unfinished};
 pub use header::{HEADER, Header, MAGIC, Malformed, VERSION};
@@ -31,18 +31,18 @@ pub enum CannotCut {
     TooLarge { bytes: usize, datagram: usize },
     /// A team and everybody can be spoken to but cannot speak.
     #[error("a message cannot come from {0}")]
-    Source(Entity),
+    Source(Peer),
 }
 
-/// The datagrams of a message, in their order. `counter` tells it from the other messages of its source entity; `datagram`
+/// The datagrams of a message, in their order. `counter` tells it from the other messages of its source; `datagram`
 /// is the size that none exceeds, bytes.
 ///
 /// # Errors
 /// If it needs more than 65535 datagrams, or its source is a group.
 pub fn cut(message: &ExternalMessage, counter: u32, datagram: usize) -> Result<Vec<Vec<u8>>, CannotCut> {
     let too_large = CannotCut::TooLarge { bytes: message.data.len(), datagram };
-    if !message.source.entity.is_one() {
-        return Err(CannotCut::Source(message.source.entity));
+    if !message.source.peer.is_one() {
+        return Err(CannotCut::Source(message.source.peer));
     }
     let room = datagram.min(LARGEST_DATAGRAM).checked_sub(HEADER).ok_or(too_large)?;
     let total = u32::try_from(message.data.len()).map_err(|_| too_large)?;

@@ -4,12 +4,12 @@ use proptest::sample::Index;
 use super::*;
 use crate::comms::tcm::external_message::{Address, DataType, Module};
 
-const HOME_3: Entity = Entity::Robot { team: 0, number: 3 };
+const HOME_3: Peer = Peer::Robot { team: 0, number: 3 };
 
-fn message(source: Entity, bytes: usize) -> ExternalMessage {
+fn message(source: Peer, bytes: usize) -> ExternalMessage {
     ExternalMessage {
-        source: Address { entity: source, module: Module::WORLD_MODEL },
-        destination: Address { entity: Entity::Team(0), module: Module::WORLD_MODEL },
+        source: Address { peer: source, module: Module::WORLD_MODEL },
+        destination: Address { peer: Peer::Team(0), module: Module::WORLD_MODEL },
         data_type: DataType::FIRST_FREE,
         data: (0..bytes).map(|place| (place % 251) as u8).collect(),
     }
@@ -32,14 +32,14 @@ fn assembled(assembly: &mut Assembly, datagrams: &[Vec<u8>]) -> Option<ExternalM
 fn a_text_has_these_bytes() {
     let manager = Module::CHAOS_MANAGER;
     let message = ExternalMessage {
-        source: Address { entity: Entity::Computer(0), module: manager },
-        destination: Address { entity: Entity::Robot { team: 1, number: 2 }, module: manager },
+        source: Address { peer: Peer::Computer(0), module: manager },
+        destination: Address { peer: Peer::Robot { team: 1, number: 2 }, module: manager },
         data_type: DataType::TEXT,
         data: b"\x05hello".to_vec(),
     };
     #[rustfmt::skip]
     let golden = [
-        0x54, 0x43, 0x4D, 0x01, // "TCM", version 1
+        0x54, 0x43, 0x4D, 0x02, // "TCM", version 2
         0x01, 0x00, 0x00, 0x06, // from a computer, (no team,) number 0, module ChaosManager
         0x00, 0x01, 0x02, 0x06, // to a robot, team away, number 2, module ChaosManager
         0x07, 0x00, 0x00, 0x00, // the source's message 7
@@ -70,7 +70,7 @@ fn a_position_in_small_datagrams_has_these_bytes() {
         ExternalMessage { data_type: DataType::POSITION, data: data.to_vec(), ..message(HOME_3, 0) };
     #[rustfmt::skip]
     let head = [
-        0x54, 0x43, 0x4D, 0x01, // "TCM", version 1
+        0x54, 0x43, 0x4D, 0x02, // "TCM", version 2
         0x00, 0x00, 0x03, 0x00, // from a robot, team home, number 3, module world model
         0x02, 0x00, 0x00, 0x00, // to a team, home, (no number,) module world model
         0x02, 0x01, 0x00, 0x00, // the source's message 258
@@ -103,8 +103,8 @@ fn what_does_not_fit_into_the_largest_number_of_datagrams_is_refused() {
 
 #[test]
 fn a_group_cannot_speak() {
-    let bad = message(Entity::Team(1), 3);
-    assert_eq!(cut(&bad, 0, 100), Err(CannotCut::Source(Entity::Team(1))));
+    let bad = message(Peer::Team(1), 3);
+    assert_eq!(cut(&bad, 0, 100), Err(CannotCut::Source(Peer::Team(1))));
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn every_inconsistency_is_named() {
     assert_eq!((spoilt(0, &[]), spoilt(1, &[]), spoilt(2, &[])), (None, None, None));
     assert_eq!(Header::read(&good[0][..HEADER - 1]), Err(Malformed::TooShort));
     assert_eq!(spoilt(0, &[(0, b'X')]), Some(Malformed::Magic));
-    assert_eq!(spoilt(0, &[(3, 2)]), Some(Malformed::Version));
+    assert_eq!(spoilt(0, &[(3, VERSION - 1)]), Some(Malformed::Version));
     for (place, byte) in [(4, 1), (4, 2), (4, 3), (4, 4)] {
         // As a computer, a team or everybody, the source has a number too many.
         let expected = (byte != 1).then_some(Malformed::Source);
@@ -141,15 +141,15 @@ fn every_inconsistency_is_named() {
 
 fn any_message() -> impl Strategy<Value = (ExternalMessage, usize)> {
     let one = prop_oneof![
-        any::<(u8, u8)>().prop_map(|(team, number)| Entity::Robot { team, number }),
-        any::<u8>().prop_map(Entity::Computer),
+        any::<(u8, u8)>().prop_map(|(team, number)| Peer::Robot { team, number }),
+        any::<u8>().prop_map(Peer::Computer),
     ];
-    let group = prop_oneof![any::<u8>().prop_map(Entity::Team), Just(Entity::Everybody)];
+    let group = prop_oneof![any::<u8>().prop_map(Peer::Team), Just(Peer::Everybody)];
     let data = prop::collection::vec(any::<u8>(), 0..300);
     (one.clone(), prop_oneof![one, group], any::<(u8, u8, u16)>(), data, 1usize..64).prop_map(
         |(source, destination, (from, to, data_type), data, piece)| {
-            let source = Address { entity: source, module: Module(from) };
-            let destination = Address { entity: destination, module: Module(to) };
+            let source = Address { peer: source, module: Module(from) };
+            let destination = Address { peer: destination, module: Module(to) };
             (ExternalMessage { source, destination, data_type: DataType(data_type), data }, piece)
         },
     )
@@ -192,7 +192,7 @@ proptest! {
     fn what_is_read_is_written_the_same_way(bytes in prop::collection::vec(any::<u8>(), 0..80), valid: bool) {
         let mut bytes = bytes;
         if valid && bytes.len() >= HEADER {
-            bytes[..4].copy_from_slice(b"TCM\x01");
+            bytes[..4].copy_from_slice(b"TCM\x02");
             let piece = (bytes.len() - HEADER) as u16;
             bytes[26..28].copy_from_slice(&piece.to_le_bytes());
         }

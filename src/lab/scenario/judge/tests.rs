@@ -2,7 +2,8 @@ use bevy::prelude::Vec2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::comms::messages::MessageKind;
+use crate::comms::radio::{Delivery, Packet};
+use crate::comms::tcm::DataType;
 use crate::ids::{RobotId, Team};
 use crate::lab::scenario::stage::{HZ, Stage, expecting};
 
@@ -155,7 +156,8 @@ fn messages_are_counted_from_the_time_asked_for() {
         move |tick: u64, stage: &mut Stage| {
             if when.contains(&tick) {
                 let [from, to] = [1, 2].map(|number| RobotId::new(Team::Home, number));
-                stage.messages.count_sent(MessageKind::Lock, from, to);
+                let packet = Packet { kind: DataType::LOCK, from, to, bytes: [].into() };
+                stage.radio.sent(&packet, &Delivery::on_time(tick), tick);
             }
         }
     };

@@ -21,7 +21,7 @@ fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
 
 /// From sending to arrival of packets that are all sent in one tick, s.
 fn latencies(mut bench: Bench) -> Vec<f64> {
-    let arrivals = (0..N).map(|_| bench.send(&packet(0, 1)).copies[0].due);
+    let arrivals = (0..N).map(|_| bench.send(&packet(0, 1)).arrivals[0].due);
     arrivals.map(|ticks| ticks as f64 / 10_000.0).collect()
 }
 
@@ -30,18 +30,22 @@ fn loss_0_loses_nothing_and_loss_1_everything() {
     let elliott =
         |loss| LossModel::GilbertElliott { to_bad: 0.3, to_good: 0.3, loss_in_good: loss, loss_in_bad: loss };
     for model in [LossModel::Independent(0.0), elliott(0.0)] {
-        assert_eq!(share(&lost(&Bench::new(losing(model)).fates(N))), 0.0);
+        assert_eq!(share(&lost(&Bench::new(losing(model)).deliveries(N))), 0.0);
     }
     for model in [LossModel::Independent(1.0), elliott(1.0)] {
-        let fates = Bench::new(losing(model)).fates(N);
-        assert!(fates.iter().all(|fate| fate.lost == Some(Loss::Chance) && fate.copies.is_empty()));
+        let deliveries = Bench::new(losing(model)).deliveries(N);
+        assert!(
+            deliveries
+                .iter()
+                .all(|delivery| delivery.lost == Some(Loss::Chance) && delivery.arrivals.is_empty())
+        );
     }
 }
 
 #[test]
 fn independent_losses_have_the_asked_share_and_do_not_cling_together() {
     for chance in [0.02f32, 0.3] {
-        let lost = lost(&Bench::new(losing(LossModel::Independent(chance))).fates(N));
+        let lost = lost(&Bench::new(losing(LossModel::Independent(chance))).deliveries(N));
         assert!(fits(share(&lost), f64::from(chance), N), "{}", share(&lost));
         let pairs: Vec<bool> = lost.chunks_exact(2).map(|pair| pair[0] && pair[1]).collect();
         assert!(fits(share(&pairs), f64::from(chance).powi(2), N / 2), "{}", share(&pairs));
@@ -53,10 +57,10 @@ fn losses_in_bursts_have_the_asked_share_and_length() {
     let models = [
         LossModel::GilbertElliott { to_bad: 0.0333, to_good: 0.1333, loss_in_good: 0.0, loss_in_bad: 1.0 },
         LossModel::GilbertElliott { to_bad: 0.1, to_good: 0.1, loss_in_good: 0.1, loss_in_bad: 0.9 },
-        LossModel::bursts(0.1, 20.0),
+        LossModel::GilbertElliott { to_bad: 0.0056, to_good: 0.05, loss_in_good: 0.0, loss_in_bad: 1.0 },
     ];
     for model in models {
-        let lost = lost(&Bench::new(losing(model)).fates(N));
+        let lost = lost(&Bench::new(losing(model)).deliveries(N));
         let LossModel::GilbertElliott { to_bad, to_good, .. } = model else { unreachable!() };
         // Neighbours are correlated by at most 1 - to_bad - to_good, which widens the deviation of a share.
         let kept = f64::from(1.0 - to_bad - to_good);
@@ -88,8 +92,11 @@ fn latency_is_a_fixed_time_and_an_exponential_jitter() {
 #[test]
 fn messages_overtake_each_other_only_where_the_latency_varies() {
     let overtaken = |radio| {
-        let due: Vec<u64> =
-            Bench::at(1000.0, radio).fates(1000).iter().map(|fate| fate.copies[0].due).collect();
+        let due: Vec<u64> = Bench::at(1000.0, radio)
+            .deliveries(1000)
+            .iter()
+            .map(|delivery| delivery.arrivals[0].due)
+            .collect();
         due.windows(2).filter(|pair| pair[1] < pair[0]).count()
     };
     assert!(overtaken(jittery()) > 300);
@@ -99,11 +106,11 @@ fn messages_overtake_each_other_only_where_the_latency_varies() {
 #[test]
 fn the_late_tail_has_its_share_and_its_bounds() {
     let late = Some(LateTail { share: 0.05, min: 0.2, max: 1.5 });
-    let fates = Bench::new(Radio { late, ..perfect() }).fates(N);
+    let deliveries = Bench::new(Radio { late, ..perfect() }).deliveries(N);
     let held: Vec<(bool, f64)> = (0..)
-        .zip(&fates)
-        .map(|(tick, fate)| {
-            let arrival = fate.copies[0];
+        .zip(&deliveries)
+        .map(|(tick, delivery)| {
+            let arrival = delivery.arrivals[0];
             (arrival.late, (arrival.due - tick) as f64 / 10_000.0)
         })
         .collect();
@@ -118,14 +125,14 @@ fn the_late_tail_has_its_share_and_its_bounds() {
 
 #[test]
 fn duplicates_have_their_share_and_a_latency_of_their_own() {
-    let fates = Bench::new(Radio { duplication: 0.2, ..jittery() }).fates(N);
-    let doubled: Vec<&Fate> = fates.iter().filter(|fate| fate.copies.len() == 2).collect();
+    let deliveries = Bench::new(Radio { duplication: 0.2, ..jittery() }).deliveries(N);
+    let doubled: Vec<&Delivery> = deliveries.iter().filter(|delivery| delivery.arrivals.len() == 2).collect();
     assert!(fits(doubled.len() as f64 / N as f64, 0.2, N), "{}", doubled.len());
-    assert!(doubled.iter().all(|fate| !fate.copies[0].duplicate && fate.copies[1].duplicate));
+    assert!(doubled.iter().all(|delivery| !delivery.arrivals[0].duplicate && delivery.arrivals[1].duplicate));
     let first: Vec<bool> = doubled
         .iter()
-        .filter(|fate| fate.copies[0].due != fate.copies[1].due)
-        .map(|fate| fate.copies[1].due < fate.copies[0].due)
+        .filter(|delivery| delivery.arrivals[0].due != delivery.arrivals[1].due)
+        .map(|delivery| delivery.arrivals[1].due < delivery.arrivals[0].due)
         .collect();
     assert!(fits(share(&first), 0.5, first.len()), "the copy came first in {}", share(&first));
 }
@@ -140,9 +147,9 @@ fn a_budget_lets_its_bytes_per_second_through_in_the_long_run() {
         let mut bytes = [0.0; 3];
         for _ in 0..60 * 600 {
             for (sum, (from, to)) in bytes.iter_mut().zip(links) {
-                let fate = bench.send(&packet(from, to));
-                assert!(matches!(fate.lost, None | Some(Loss::Budget)));
-                *sum += 40.0 * fate.copies.len() as f64;
+                let delivery = bench.send(&packet(from, to));
+                assert!(matches!(delivery.lost, None | Some(Loss::Budget)));
+                *sum += 40.0 * delivery.arrivals.len() as f64;
             }
             bench.clock.tick += 1;
         }
@@ -161,16 +168,17 @@ fn a_budget_lets_its_bytes_per_second_through_in_the_long_run() {
 #[test]
 fn extra_loss_comes_on_top_of_the_radios_own() {
     let mut bench = Bench::new(losing(LossModel::Independent(0.2)));
-    bench.conditions.extra_loss = 0.5;
-    let fates = bench.fates(N);
-    let to = |reason| share(&fates.iter().map(|fate| fate.lost == Some(reason)).collect::<Vec<_>>());
+    bench.interference.extra_loss = 0.5;
+    let deliveries = bench.deliveries(N);
+    let to =
+        |reason| share(&deliveries.iter().map(|delivery| delivery.lost == Some(reason)).collect::<Vec<_>>());
     assert!(fits(to(Loss::Chance), 0.2, N) && fits(to(Loss::Extra), 0.4, N), "{}", to(Loss::Extra));
 }
 
 #[test]
 fn links_are_independent_of_each_other() {
     let radio = losing(LossModel::Independent(0.5));
-    let alone = lost(&Bench::new(radio.clone()).fates(N));
+    let alone = lost(&Bench::new(radio.clone()).deliveries(N));
     let mut bench = Bench::new(radio);
     for (other_from, other_to) in [(1, 0), (0, 2), (2, 1)] {
         bench.channel = Channel::new(SEED, bench.channel.radio().clone());

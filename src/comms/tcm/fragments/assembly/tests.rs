@@ -3,16 +3,16 @@ use proptest::prelude::*;
 use super::*;
 use crate::comms::tcm::fragments::{HEADER, cut};
 
-const LIMITS: Limits = Limits { messages: 3, bytes: 6_000, message_bytes: 1_000, patience: 10 };
+const LIMITS: Limits = Limits { messages: 3, bytes: 6_000, message_bytes: 1_000, timeout: 10 };
 
-fn robot(number: u8) -> Entity {
-    Entity::Robot { team: 0, number }
+fn robot(number: u8) -> Peer {
+    Peer::Robot { team: 0, number }
 }
 
 fn message(from: u8, data: &[u8]) -> ExternalMessage {
     ExternalMessage {
-        source: Address { entity: robot(from), module: Module::WORLD_MODEL },
-        destination: Address { entity: Entity::Team(0), module: Module::WORLD_MODEL },
+        source: Address { peer: robot(from), module: Module::WORLD_MODEL },
+        destination: Address { peer: Peer::Team(0), module: Module::WORLD_MODEL },
         data_type: DataType::FIRST_FREE,
         data: data.to_vec(),
     }
@@ -96,7 +96,7 @@ fn where_a_place_is_missing_the_oldest_goes() {
     for now in [2, 0, 1, 3] {
         accept(&mut assembly, now, [&parts[now as usize][0]]);
     }
-    let left: Vec<_> = assembly.in_assembly().map(|unfinished| unfinished.source.entity).collect();
+    let left: Vec<_> = assembly.in_assembly().map(|unfinished| unfinished.source.peer).collect();
     assert_eq!(left, [robot(0), robot(1), robot(3)]);
     assert_eq!(assembly.counters().evicted, 1);
     assert_eq!(accept(&mut assembly, 4, parts.iter().map(|parts| &parts[1])).len(), 3);
@@ -168,7 +168,7 @@ fn malformed_datagrams_are_counted_by_their_reason() {
     assert_eq!(assembly.accept(0, b"TCM"), Err(Refused::Malformed(Malformed::TooShort)));
     assert_eq!(assembly.accept(0, &[0; HEADER]), Err(Refused::Malformed(Malformed::Magic)));
     let counters = assembly.counters();
-    assert_eq!((counters.malformed_as(Malformed::TooShort), counters.malformed_in_all()), (1, 2));
+    assert_eq!((counters.malformed[Malformed::TooShort.index()], counters.malformed_in_all()), (1, 2));
     assert!(Malformed::ALL.iter().enumerate().all(|(place, reason)| reason.index() == place));
 }
 
@@ -177,7 +177,7 @@ fn limits_that_make_no_sense_are_named() {
     let fault = |limits: Limits| limits.fault().map(|fault| fault.0);
     assert_eq!((fault(LIMITS), fault(Limits::default())), (None, None));
     assert_eq!(fault(Limits { messages: 0, ..LIMITS }), Some("messages"));
-    assert_eq!(fault(Limits { patience: 0, ..LIMITS }), Some("patience"));
+    assert_eq!(fault(Limits { timeout: 0, ..LIMITS }), Some("timeout"));
     assert_eq!(fault(Limits { bytes: 1_000, ..LIMITS }), Some("bytes"));
 }
 
@@ -213,8 +213,8 @@ proptest! {
             prop_assert!(bytes <= LIMITS.bytes);
             prop_assert!(assembly.in_assembly().all(|one| one.have > 0 && one.have < one.of));
         }
-        assembly.expire(now + LIMITS.patience);
-        assembly.expire(now + 2 * LIMITS.patience);
+        assembly.expire(now + LIMITS.timeout);
+        assembly.expire(now + 2 * LIMITS.timeout);
         prop_assert_eq!((assembly.memory(), assembly.in_assembly().len()), (0, 0));
     }
 }
