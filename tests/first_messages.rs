@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::clock::{Clock, TICK_HZ};
-use touchline::comms::messages::{GoalieBehaviour, Message};
+use touchline::comms::messages::{GoalieBehaviour, TeamMessage};
 use touchline::comms::tcm::{Arrived, Data};
 use touchline::data::AssetKind;
 use touchline::game::requests::{Request, Treatment};
@@ -18,12 +18,12 @@ use crate::support::{assets, ball, robot};
 
 /// The first message of each kind of each robot since it was switched on, with the tick in which it arrived.
 #[derive(Resource, Default)]
-struct Firsts(BTreeMap<(RobotId, &'static str), (u64, Message)>);
+struct Firsts(BTreeMap<(RobotId, &'static str), (u64, TeamMessage)>);
 
-fn hear(arrived: On<Arrived<Message>>, clock: Res<Clock>, mut firsts: ResMut<Firsts>) {
+fn hear(arrived: On<Arrived<TeamMessage>>, clock: Res<Clock>, mut firsts: ResMut<Firsts>) {
     let from = arrived.from.robot().expect("robots speak to robots");
     let (known, _) = arrived.data.serialise();
-    if !matches!(arrived.data, Message::RoleSwap(_)) {
+    if !matches!(arrived.data, TeamMessage::RoleSwap(_)) {
         firsts.0.entry((from, known.name)).or_insert((clock.tick, arrived.data.clone()));
     }
 }
@@ -89,17 +89,17 @@ fn errors(plan: &MatchPlan, id: RobotId) -> (f32, f32) {
 }
 
 /// What is false about a message, given the truth by tick.
-fn falsehood(plan: &MatchPlan, id: RobotId, message: &Message, truths: &[Truth]) -> Option<String> {
+fn falsehood(plan: &MatchPlan, id: RobotId, message: &TeamMessage, truths: &[Truth]) -> Option<String> {
     let tick_of = |time: u32| ((f64::from(time) + 0.5) * 0.06).round() as usize;
     let own = |tick: usize| truths[tick].robots[&id].position;
     let ball = |tick: usize| truths[tick].ball[id.team.index()];
     let (error, sight) = errors(plan, id);
     let (is_true, truth) = match message {
-        Message::Position(said) => {
+        TeamMessage::Position(said) => {
             let truth = own(tick_of(said.time));
             (said.position.distance(truth) <= error, format!("it is at {truth}"))
         }
-        Message::HaveBall(said) => {
+        TeamMessage::HaveBall(said) => {
             let now = tick_of(said.time);
             // A ball that it saw is where it was, or where it rolled from there, until the robot forgets it.
             let memory = plan.team(id.team).sensing.memory.ball * TICK_HZ;
@@ -110,7 +110,7 @@ fn falsehood(plan: &MatchPlan, id: RobotId, message: &Message, truths: &[Truth])
                 format!("the ball was {distance} m away at its nearest"),
             )
         }
-        Message::Goalie(said) => {
+        TeamMessage::Goalie(said) => {
             let truth = own(tick_of(said.time));
             let area = plan.pitch.own_penalty_area();
             let is_true = match said.behaviour {
@@ -119,13 +119,15 @@ fn falsehood(plan: &MatchPlan, id: RobotId, message: &Message, truths: &[Truth])
             };
             (is_true, format!("it is at {truth}"))
         }
-        Message::BallReport(said) => {
+        TeamMessage::BallReport(said) => {
             let seen = tick_of(said.time.saturating_sub((said.age * 1000.0) as u32));
             let truth = ball(seen);
             let range = truth.distance(own(seen));
             (said.position.distance(truth) <= error + sight * range, format!("the ball is at {truth}"))
         }
-        Message::Book(_) | Message::Values(_) | Message::RoleSwap(_) | Message::Text(_) => return None,
+        TeamMessage::Book(_) | TeamMessage::Values(_) | TeamMessage::RoleSwap(_) | TeamMessage::Text(_) => {
+            return None;
+        }
     };
     (!is_true).then_some(truth)
 }

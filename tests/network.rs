@@ -10,14 +10,15 @@ use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
-use touchline::comms::messages::Message;
-use touchline::comms::radio::RadioRecord;
-use touchline::comms::tcm::fragments::{Assembly, Limits, USUAL_DATAGRAM, cut};
+use touchline::comms::messages::TeamMessage;
+use touchline::comms::radio::{RadioRecord, TransmissionState};
+use touchline::comms::tcm::fragments::{Assembly, Header, Limits, USUAL_DATAGRAM, cut};
 use touchline::comms::tcm::udp::UdpError;
 use touchline::comms::tcm::{Data, DataType, Directory, ExternalMessage, HOST, Module, Peer, Tcm};
 use touchline::game::net::{self, CarrierFigures, Greeting, UdpCarrier, WireError, WirePlan};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
+use touchline::protocol::role_swap;
 
 use crate::support::{assets, digest_of};
 
@@ -141,7 +142,7 @@ fn what_is_not_ours_is_counted_and_changes_nothing() {
     let by_radio = talkative(0.1);
     let (mut game, plan) = open(&by_udp(by_radio.clone()));
     let (stranger, to) = (stranger(), address_of(&plan, HOME_0));
-    let text = Message::Text("hello".into());
+    let text = TeamMessage::Text("hello".into());
     let mut times = 0;
     while !game.is_over() {
         if game.clock().tick.is_multiple_of(100) {
@@ -225,4 +226,39 @@ fn an_address_that_is_taken_or_missing_is_named_and_no_socket_stays_open() {
         UdpSocket::bind(first).expect("the first robot's socket was closed again");
         game.tick();
     }
+}
+
+/// The test plays the part of a robot in another process: it tells and hears nothing but team messages.
+#[test]
+fn a_lock_of_a_robot_in_another_process_is_recorded_with_its_kind_and_answered() {
+    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
+    let (mut game, plan) = open(&MatchPlan { wires: remote, ..talkative(0.1) });
+    let robot =
+        UdpSocket::bind(address_of(&plan, HOME_1)).expect("the match leaves the address to the robot");
+    robot.set_nonblocking(true).expect("sockets can do that");
+    game.tick();
+    let lock = TeamMessage::RoleSwap(role_swap::Message::Lock { sequence: 7 });
+    let lock = datagram(HOME_1.into(), HOME_0.into(), 1, &lock);
+    robot.send_to(&lock, address_of(&plan, HOME_0)).expect("it is sent");
+    (0..12).for_each(|_| game.tick());
+    let record = game.world().resource::<RadioRecord>();
+    let of = |kind, from: RobotId, to: RobotId| {
+        let mut found = record
+            .transmissions()
+            .filter(|entry| (entry.packet.kind, entry.packet.from, entry.packet.to) == (kind, from, to));
+        (found.next().map(|entry| (entry.sent, entry.state)), found.count())
+    };
+    assert_eq!(of(DataType::LOCK, HOME_1, HOME_0), (Some((0, TransmissionState::Arrived(1))), 0));
+    assert_eq!(record.of_kind(DataType::LOCK, Some(HOME_1), Some(HOME_0)).delivered, 1);
+    let (answer, others) = of(DataType::ACK_LOCK, HOME_0, HOME_1);
+    assert!(matches!(answer, Some((_, TransmissionState::Arrived(_)))) && others == 0, "{answer:?}");
+    let (mut bytes, mut heard) = ([0; 2000], Vec::new());
+    while let Ok(length) = robot.recv(&mut bytes) {
+        let (header, data) = Header::read(&bytes[..length]).expect("it is of the TCM");
+        heard.extend(TeamMessage::unserialise(header.data_type, data));
+    }
+    let is_answer = |message: &TeamMessage| {
+        matches!(message, TeamMessage::RoleSwap(role_swap::Message::AckLock { sequence: 7, .. }))
+    };
+    assert_eq!(heard.iter().filter(|message| is_answer(message)).count(), 1, "{heard:?}");
 }

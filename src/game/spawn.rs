@@ -14,7 +14,7 @@ use crate::geometry::{Pose, Twist};
 use crate::ids::{MatchEntity, RobotId};
 use crate::mind::motor::{Contributions, MotorDice};
 use crate::mind::perception::Memory;
-use crate::mind::teamwork::{Booking, Swapping, TeamPicture};
+use crate::mind::teamwork::{Booking, Swapping, TeamModel};
 use crate::mind::world_model::WorldModel;
 use crate::rng::Seed;
 use crate::robot::handling::Handling;
@@ -132,7 +132,7 @@ fn parts(entry: &Entry, clock: &Clock) -> impl Bundle + use<> {
     );
     let mind = (
         Role(entry.role),
-        TeamPicture::new(entry.strategy),
+        TeamModel::new(entry.strategy),
         Inbox::default(),
         TcmClient::new(entry.id, entry.tcm.queue),
         Tcm::new(entry.tcm, clock),

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::protocol::b3p;
-use crate::protocol::policy::{Cast, Policy};
+use crate::protocol::policy::{Policy, SwapRoles};
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
 use crate::strategy::role::RoleRef;
 
@@ -104,7 +104,7 @@ pub struct TeamworkFile {
     pub hierarchy: Vec<String>,
     /// The role that sends goalie messages.
     pub goalie: Option<String>,
-    pub talk: Talk,
+    pub talk: MessageTiming,
     pub role_swap: Option<RoleSwapFile>,
     pub ball_booking: Option<BallBooking>,
 }
@@ -112,7 +112,7 @@ pub struct TeamworkFile {
 /// When robots talk and how long they believe what they heard, all in seconds, and how near to the ball it can be claimed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Talk {
+pub struct MessageTiming {
     /// Between two position messages.
     pub position_every: f32,
     /// For how long a position is believed.
@@ -129,9 +129,9 @@ pub struct Talk {
     pub ball_memory: f32,
 }
 
-impl Default for Talk {
-    fn default() -> Talk {
-        Talk {
+impl Default for MessageTiming {
+    fn default() -> MessageTiming {
+        MessageTiming {
             position_every: 0.2,
             position_memory: 1.5,
             claim_every: 0.4,
@@ -149,7 +149,7 @@ impl Default for Talk {
 pub struct RoleSwapFile {
     pub protocol: Protocol,
     pub policy: Policy,
-    pub cast: CastFile,
+    pub cast: SwapRolesFile,
     #[serde(default)]
     pub timers: Timers,
 }
@@ -195,7 +195,7 @@ pub enum Protocol {
 /// The roles that are swapped.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CastFile {
+pub struct SwapRolesFile {
     pub halfback: RoleRef,
     pub floater: RoleRef,
     pub forward: RoleRef,
@@ -229,7 +229,7 @@ pub struct Teamwork {
     /// The rank of each role, 0 highest.
     pub ranks: Vec<usize>,
     pub goalie: Option<RoleIndex>,
-    pub talk: Talk,
+    pub talk: MessageTiming,
     pub role_swap: Option<RoleSwapSpec>,
     pub ball_booking: Option<BallBooking>,
 }
@@ -239,7 +239,7 @@ pub struct Teamwork {
 pub struct RoleSwapSpec {
     pub protocol: Protocol,
     pub policy: Policy,
-    pub cast: Cast,
+    pub cast: SwapRoles,
     pub timers: Timers,
 }
 

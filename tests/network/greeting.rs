@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use touchline::comms::messages::Message;
+use touchline::comms::messages::TeamMessage;
 use touchline::comms::tcm::fragments::{Assembly, Limits};
 use touchline::comms::tcm::{Addresses, Data, ExternalMessage, HOST, Peer};
 use touchline::game::net::{
@@ -189,7 +189,7 @@ fn a_robot_given_up_in_the_midst_of_a_match_plays_on_here_though_somebody_has_it
 
 #[test]
 fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
-    let text = Message::Text("hello".into());
+    let text = TeamMessage::Text("hello".into());
     let (mut game, plan) = open(&with_remote(talkative(0.1), &[HOME_1]));
     let host = plan.directory().address_of(HOST).expect("it is there");
     let robot = UdpSocket::bind(address_of(&plan, HOME_1)).expect("it was free");

@@ -8,7 +8,7 @@ use touchline::game::requests::{Request, Requests, Shove};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::mind::teamwork::{Booking, TeamPicture};
+use touchline::mind::teamwork::{Booking, TeamModel};
 use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
 use touchline::robot::{OffPitch, Orders, RobotState};
@@ -121,7 +121,7 @@ impl Refereed {
 
     /// The robots that claim the ball.
     fn claimants(&mut self) -> Vec<RobotId> {
-        let mut robots = self.game.world_mut().query::<(&RobotId, &TeamPicture)>();
+        let mut robots = self.game.world_mut().query::<(&RobotId, &TeamModel)>();
         robots.iter(self.game.world()).filter(|(_, own)| own.has_ball).map(|(id, _)| *id).collect()
     }
 

@@ -13,7 +13,7 @@ use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Twist};
 use crate::ids::RobotId;
 use crate::mind::motor::Contributions;
-use crate::mind::teamwork::{Booking, TeamPicture};
+use crate::mind::teamwork::{Booking, TeamModel};
 use crate::mind::world_model::WorldModel;
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
@@ -44,7 +44,7 @@ pub struct Subject {
     pub head: &'static Head,
     pub handling: &'static Handling,
     pub orders: &'static Orders,
-    pub picture: &'static TeamPicture,
+    pub team_model: &'static TeamModel,
     pub booking: Option<&'static Booking>,
     pub piloted: Has<Pilot>,
     pub off_pitch: Has<OffPitch>,

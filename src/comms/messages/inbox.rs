@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::Message;
+use super::TeamMessage;
 use crate::comms::tcm::{Arrived, Peer};
 use crate::ids::{PlayerNumber, RobotId};
 
@@ -15,11 +15,11 @@ pub struct Inbox(pub Vec<Received>);
 #[derive(Clone, Debug, PartialEq)]
 pub struct Received {
     pub from: PlayerNumber,
-    pub message: Message,
+    pub message: TeamMessage,
 }
 
 /// The callback of the teamwork's modules: what a team mate says waits in the inbox for the robot's next decision.
-pub(super) fn put_into_inbox(arrived: On<Arrived<Message>>, mut robots: Query<(&RobotId, &mut Inbox)>) {
+pub(super) fn put_into_inbox(arrived: On<Arrived<TeamMessage>>, mut robots: Query<(&RobotId, &mut Inbox)>) {
     let Ok((id, mut inbox)) = robots.get_mut(arrived.entity) else { return };
     if let Peer::Robot { team, number } = arrived.from
         && team == id.team as u8

@@ -14,9 +14,9 @@ use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::Packet;
 use super::faults::{Act, FaultRules};
 use super::interference::{Interference, Obstacle};
+use super::packet::Packet;
 use super::preset::{Budget, Radio, SharedBy};
 use crate::clock::Clock;
 use crate::ids::RobotId;

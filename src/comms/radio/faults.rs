@@ -7,7 +7,7 @@ use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
-use super::Packet;
+use super::packet::Packet;
 use crate::comms::tcm::DataType;
 use crate::data::{Bound, Fault, first_fault};
 use crate::ids::RobotId;

@@ -4,12 +4,11 @@
 mod channel;
 mod faults;
 mod interference;
+mod packet;
 mod preset;
 mod record;
 #[cfg(test)]
 mod tests;
-
-use std::sync::Arc;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
@@ -18,12 +17,12 @@ use smallvec::SmallVec;
 pub use channel::{Channel, Delivery, Loss};
 pub use faults::{FaultRule, FaultRules};
 pub use interference::{Interference, Partition};
+pub use packet::Packet;
 pub use preset::Radio;
 pub use record::{LinkCounters, RadioRecord, Transmission, TransmissionState};
 
 use crate::clock::Clock;
-use crate::comms::tcm::fragments::Header;
-use crate::comms::tcm::{DataType, Datagram, Incoming, OnAir, TcmSystems};
+use crate::comms::tcm::{Incoming, OnAir, TcmSystems};
 use crate::geometry::Pose;
 use crate::ids::{MatchEntity, RobotId};
 use crate::robot::Robot;
@@ -38,25 +37,6 @@ pub(super) fn plugin(app: &mut App) {
 /// The simulated radio, which stands by where datagrams cross a real network.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RadioSystems;
-
-/// A datagram from one robot to one other.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Packet {
-    /// What the message is about of which it brings a piece.
-    pub kind: DataType,
-    pub from: RobotId,
-    pub to: RobotId,
-    pub bytes: Arc<[u8]>,
-}
-
-impl Packet {
-    /// The packet that a datagram is; `None` if it is for a computer, or none of the TCM.
-    pub fn of(datagram: &Datagram) -> Option<Packet> {
-        let (header, _) = Header::read(&datagram.bytes).ok()?;
-        let (from, to) = (datagram.from, datagram.to.robot()?);
-        Some(Packet { kind: header.data_type, from, to, bytes: datagram.bytes.clone() })
-    }
-}
 
 /// A packet, or a second copy of it, on its way.
 #[derive(Component, Clone, Debug, PartialEq)]

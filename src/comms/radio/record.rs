@@ -10,8 +10,8 @@ use std::ops::AddAssign;
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
-use super::Packet;
 use super::channel::{Delivery, Loss};
+use super::packet::Packet;
 use crate::clock::Clock;
 use crate::comms::tcm::DataType;
 use crate::ids::RobotId;

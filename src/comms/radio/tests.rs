@@ -4,7 +4,7 @@ use crate::testing::perfect_sensing;
 use std::sync::Arc;
 
 use super::*;
-use crate::comms::messages::{self, HaveBall, Inbox, Message, Received};
+use crate::comms::messages::{self, HaveBall, Inbox, Received, TeamMessage};
 use crate::comms::tcm::{self, Addresses, Directory, Tcm, TcmClient, TcmSettings};
 use crate::ids::Team::{Away, Home};
 use crate::rng::Seed;
@@ -55,14 +55,14 @@ fn heard(app: &mut App, robot: RobotId) -> Vec<u32> {
     let mut robots = app.world_mut().query::<(&RobotId, &Inbox)>();
     let (_, inbox) = robots.iter(app.world()).find(|(id, _)| **id == robot).expect("the robot exists");
     let time = |received: &Received| match &received.message {
-        Message::HaveBall(message) => message.time,
+        TeamMessage::HaveBall(message) => message.time,
         other => panic!("{other:?}"),
     };
     inbox.0.iter().map(time).collect()
 }
 
-fn message(time: u32) -> Message {
-    Message::HaveBall(HaveBall { time, robot: 0, have_ball: true, role: 0 })
+fn message(time: u32) -> TeamMessage {
+    TeamMessage::HaveBall(HaveBall { time, robot: 0, have_ball: true, role: 0 })
 }
 
 #[test]

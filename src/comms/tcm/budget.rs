@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::Resource;
 use serde::Serialize;
 
+use super::data::Priority;
 use crate::ids::{RobotId, Team};
 
 /// The budgets of both teams; there are none where nobody asks how much is said.
@@ -30,7 +31,9 @@ pub struct Spent {
 }
 
 /// The most messages that a robot saves up, so that it can answer at once and nobody floods the air.
-const MOST_SAVED: f64 = 4.0;
+const MOST_SAVED: f64 = 8.0;
+/// What routine messages leave of it for urgent ones: enough to ask a team for its locks and to swap roles.
+const RESERVE: f64 = 5.0;
 /// The shortest time over which a budget is spread, s: what is left in the last moments need not be used up.
 const SHORTEST: f64 = 30.0;
 
@@ -76,14 +79,15 @@ impl MessageBudgets {
 
     /// Whether a robot may send so many datagrams now; they are counted if so. More than it can ever save up it may send
     /// once it has saved the most, and pays for afterwards.
-    pub fn spend(&mut self, robot: RobotId, datagrams: usize) -> bool {
+    pub fn spend(&mut self, robot: RobotId, datagrams: usize, priority: Priority) -> bool {
         if !self.counts {
             return true;
         }
         let (cost, left) = (datagrams as u64, self.left(robot.team));
         if let Some(savings) = &mut self.savings {
             let saved = savings.entry(robot).or_insert(MOST_SAVED);
-            if left < cost || *saved < (cost as f64).min(MOST_SAVED) {
+            let reserve = if priority == Priority::Routine { RESERVE } else { 0.0 };
+            if left < cost || *saved < (cost as f64 + reserve).min(MOST_SAVED) {
                 self.teams[robot.team.index()].over_budget += cost;
                 return false;
             }
@@ -105,6 +109,7 @@ impl MessageBudgets {
 mod tests {
     use proptest::prelude::*;
 
+    use super::Priority::{Routine, Urgent};
     use super::*;
 
     fn robots(players: u8) -> impl Iterator<Item = RobotId> {
@@ -123,7 +128,7 @@ mod tests {
     #[test]
     fn a_budget_that_only_counts_lets_everything_be_said() {
         let mut budgets = MessageBudgets::counting(3, 6);
-        assert!((0..5).all(|_| budgets.spend(HOME_0, 1)));
+        assert!((0..5).all(|_| budgets.spend(HOME_0, 1, Routine)));
         assert_eq!((budgets.left(Team::Home), budgets.left(Team::Away)), (0, 3));
         assert_eq!(budgets.spent(Team::Home), Spent { counted: 5, over_budget: 0 });
         budgets.begin_extra_time();
@@ -135,11 +140,11 @@ mod tests {
     fn what_no_box_counts_costs_nothing() {
         let mut budgets = limiting(1, 2);
         budgets.counts = false;
-        assert!((0..5).all(|_| budgets.spend(HOME_0, 1)));
+        assert!((0..5).all(|_| budgets.spend(HOME_0, 1, Routine)));
         budgets.count(Team::Home, 7);
         assert_eq!(budgets.left(Team::Home), 1);
         budgets.counts = true;
-        assert!(budgets.spend(HOME_0, 1) && !budgets.spend(HOME_1, 1));
+        assert!(budgets.spend(HOME_0, 1, Routine) && !budgets.spend(HOME_1, 1, Routine));
         assert_eq!(budgets.spent(Team::Home), Spent { counted: 1, over_budget: 1 });
     }
 
@@ -152,7 +157,7 @@ mod tests {
             for tick in 0..seconds * 60 {
                 budgets.share_out(1.0 / 60.0, f64::from(seconds * 60 - tick) / 60.0);
                 for robot in robots(4) {
-                    if budgets.spend(robot, 1) {
+                    if budgets.spend(robot, 1, Routine) {
                         *by_robot.entry(robot).or_insert(0) += 1;
                         last = tick;
                     }
@@ -166,13 +171,29 @@ mod tests {
     }
 
     #[test]
+    fn routine_messages_leave_room_for_those_of_a_protocol() {
+        let mut budgets = limiting(12_000, 4);
+        let chatter = |budgets: &mut MessageBudgets| {
+            let second = (0..60).map(|_| {
+                budgets.share_out(1.0 / 60.0, 1_200.0);
+                u32::from(budgets.spend(HOME_0, 1, Routine))
+            });
+            second.sum::<u32>()
+        };
+        assert_eq!(chatter(&mut budgets), 5, "three that were saved and two of its share");
+        let locks = (0..5).filter(|_| budgets.spend(HOME_0, 1, Urgent)).count();
+        assert_eq!((locks, budgets.spend(HOME_0, 1, Urgent)), (5, false));
+        assert_eq!(chatter(&mut budgets), 0, "the reserve is saved up again first");
+    }
+
+    #[test]
     fn a_long_message_is_sent_whole_and_paid_for_afterwards() {
         let mut budgets = limiting(1_000, 1);
-        assert!(budgets.spend(HOME_0, 10));
-        budgets.share_out(5.0, 1_000.0);
-        assert!(!budgets.spend(HOME_0, 1), "it owes six and has earned five");
+        assert!(budgets.spend(HOME_0, 10, Urgent));
+        budgets.share_out(1.0, 1_000.0);
+        assert!(!budgets.spend(HOME_0, 1, Urgent), "it owes two and has earned one");
         budgets.share_out(3.0, 1_000.0);
-        assert!(budgets.spend(HOME_0, 1));
+        assert!(budgets.spend(HOME_0, 1, Urgent));
     }
 
     proptest! {
@@ -184,7 +205,7 @@ mod tests {
             let mut budgets = limiting(size, 3);
             for (robot, cost, dt, seconds_left) in steps {
                 budgets.share_out(dt, seconds_left);
-                budgets.spend(RobotId::new(Team::BOTH[usize::from(robot / 3)], robot % 3), cost);
+                budgets.spend(RobotId::new(Team::BOTH[usize::from(robot / 3)], robot % 3), cost, Routine);
             }
             for team in Team::BOTH {
                 prop_assert!(budgets.spent(team).counted <= size);

@@ -31,23 +31,41 @@ pub struct TypeInfo {
     pub name: &'static str,
     /// The module that sends it.
     pub module: Module,
+    pub priority: Priority,
 }
 
-/// Makes a type [`Data`] in the format of Touchline's own types, postcard. Each row is a data type: its number, name and
-/// module, the values that it stands for, what is written of them, and what a value must satisfy when it is read.
+/// Which messages go first where a budget does not bear all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Priority {
+    /// News that is sent again and again.
+    Routine,
+    /// A step of a protocol, for which others wait.
+    Urgent,
+}
+
+/// Makes a type [`Data`] in the format of Touchline's own types, postcard. Each row is a data type: its number, name,
+/// module and priority, the values that it stands for, what is written of them, and what a value must satisfy when it is read.
 macro_rules! data {
     ($data:ty {
-        $($number:path, $name:literal, $module:expr; ($($value:tt)+) = $written:tt: $type:ty $(, if $is_sound:expr)?;)+
+        $($number:path, $name:literal, $module:expr, $priority:ident; ($($value:tt)+) = $written:tt: $type:ty $(, if $is_sound:expr)?;)+
     }) => {
         impl $crate::comms::tcm::Data for $data {
-            const TYPES: &'static [$crate::comms::tcm::TypeInfo] =
-                &[$($crate::comms::tcm::TypeInfo { number: $number, name: $name, module: $module }),+];
+            const TYPES: &'static [$crate::comms::tcm::TypeInfo] = {
+                use $crate::comms::tcm::{Priority, TypeInfo};
+                &[$(TypeInfo { number: $number, name: $name, module: $module, priority: Priority::$priority }),+]
+            };
 
             fn serialise(&self) -> (&'static $crate::comms::tcm::TypeInfo, Vec<u8>) {
-                use $crate::comms::tcm::{TypeInfo, to_postcard};
+                use $crate::comms::tcm::{Priority, TypeInfo, to_postcard};
                 match self {
                     $($($value)+ => {
-                        (&TypeInfo { number: $number, name: $name, module: $module }, to_postcard(&$written))
+                        const KNOWN: TypeInfo = TypeInfo {
+                            number: $number,
+                            name: $name,
+                            module: $module,
+                            priority: Priority::$priority,
+                        };
+                        (&KNOWN, to_postcard(&$written))
                     })+
                 }
             }

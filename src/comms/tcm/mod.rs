@@ -25,7 +25,7 @@ use bevy::prelude::*;
 pub use budget::{MessageBudgets, Spent};
 pub use client::TcmClient;
 pub(crate) use data::data;
-pub use data::{Arrived, Data, RegisterData, Registry, TypeInfo, from_postcard, to_postcard};
+pub use data::{Arrived, Data, Priority, RegisterData, Registry, TypeInfo, from_postcard, to_postcard};
 pub use directory::Directory;
 pub use external_message::{Address, DataType, ExternalMessage, HOST, Module, Peer};
 pub use settings::TcmSettings;
@@ -179,7 +179,7 @@ impl Tcm {
         };
         if let Some(budgets) = budgets
             && directory.receivers(to, source.peer).next().is_some()
-            && !budgets.spend(from, pieces.len())
+            && !budgets.spend(from, pieces.len(), known.priority)
         {
             self.counters.dropped(module, data_type, Dropped::OverBudget);
             return;

@@ -20,8 +20,12 @@ use crate::testing::{cye, perfect_radio};
 struct Note<const TYPE: u16, const MODULE: u8>(Vec<u8>);
 
 impl<const TYPE: u16, const MODULE: u8> Data for Note<TYPE, MODULE> {
-    const TYPES: &'static [TypeInfo] =
-        &[TypeInfo { number: DataType(TYPE), name: "note", module: Module(MODULE) }];
+    const TYPES: &'static [TypeInfo] = &[TypeInfo {
+        number: DataType(TYPE),
+        name: "note",
+        module: Module(MODULE),
+        priority: Priority::Routine,
+    }];
 
     fn serialise(&self) -> (&'static TypeInfo, Vec<u8>) {
         (&Self::TYPES[0], self.0.clone())

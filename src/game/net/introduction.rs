@@ -97,7 +97,7 @@ impl Particular {
 
 const INTRODUCTION: DataType = DataType(18);
 
-data!(Introduction { INTRODUCTION, "introduction", Module::REMOTE_ROBOTS; (it) = it: Introduction; });
+data!(Introduction { INTRODUCTION, "introduction", Module::REMOTE_ROBOTS, Routine; (it) = it: Introduction; });
 
 #[cfg(test)]
 mod tests {

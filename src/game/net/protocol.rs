@@ -103,8 +103,8 @@ impl Sensors {
 const SENSORS: DataType = DataType(19);
 const COMMAND: DataType = DataType(20);
 
-data!(Sensors { SENSORS, "sensors", Module::REMOTE_ROBOTS; (it) = it: Sensors, if Sensors::is_finite; });
-data!(Command { COMMAND, "command", Module::REMOTE_ROBOTS; (it) = it: Command, if Command::is_finite; });
+data!(Sensors { SENSORS, "sensors", Module::REMOTE_ROBOTS, Routine; (it) = it: Sensors, if Sensors::is_finite; });
+data!(Command { COMMAND, "command", Module::REMOTE_ROBOTS, Routine; (it) = it: Command, if Command::is_finite; });
 
 #[cfg(test)]
 mod tests {

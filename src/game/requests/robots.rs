@@ -10,7 +10,7 @@ use crate::clock::Clock;
 use crate::comms::tcm::TcmClient;
 use crate::ids::RobotId;
 use crate::mind::perception::Memory;
-use crate::mind::teamwork::{Booking, Swapping, TeamPicture};
+use crate::mind::teamwork::{Booking, Swapping, TeamModel};
 use crate::mind::world_model::WorldModel;
 use crate::robot::{Ailment, Condition, Percepts, Recall, Robot, RobotKind, SteeringIntent};
 use crate::strategy::{Activity, Role, Strategies, Strategy};
@@ -25,7 +25,7 @@ pub(super) struct Patient {
     robot: &'static mut Robot,
     role: &'static mut Role,
     swapping: Option<&'static mut Swapping>,
-    picture: &'static mut TeamPicture,
+    team_model: &'static mut TeamModel,
     activity: &'static mut Activity,
     memory: &'static mut Memory,
     model: &'static mut WorldModel,
@@ -98,9 +98,9 @@ impl PatientItem<'_, '_> {
             (None, Recall::Lost) => self.role.0 = at_kick_off.unwrap_or(self.role.0),
             (None, Recall::Kept) => {}
         }
-        let known = std::mem::replace(&mut *self.picture, TeamPicture::new(strategy));
+        let known = std::mem::replace(&mut *self.team_model, TeamModel::new(strategy));
         if recall == Recall::Kept {
-            self.picture.roles = known.roles;
+            self.team_model.roles = known.roles;
         }
         if let Some(booking) = &mut self.booking {
             booking.0.restart();

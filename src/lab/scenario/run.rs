@@ -17,7 +17,7 @@ use crate::comms::radio::RadioRecord;
 use crate::game::Match;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
-use crate::mind::teamwork::{Booking, Standing, Swapping, TeamPicture};
+use crate::mind::teamwork::{Booking, BookingStatus, Swapping, TeamModel};
 use crate::pitch::Pitch;
 use crate::robot::Robot;
 use crate::strategy::{Activity, Role, Strategies, Strategy};
@@ -82,7 +82,7 @@ type Seen<'a> = (
     &'a Twist,
     &'a Role,
     &'a Activity,
-    &'a TeamPicture,
+    &'a TeamModel,
     Option<&'a Swapping>,
     Option<&'a Booking>,
 );
@@ -110,7 +110,7 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
 }
 
 fn robot_scene<'a>(
-    (id, robot, pose, twist, role, activity, picture, swapping, booking): Seen,
+    (id, robot, pose, twist, role, activity, team_model, swapping, booking): Seen,
     strategy: &'a Strategy,
 ) -> RobotScene<'a> {
     let configuration = swapping.and_then(|swapping| swapping.machine.configuration());
@@ -122,13 +122,17 @@ fn robot_scene<'a>(
         role: &strategy.roles[role.0].name,
         acting_as: &strategy.roles[activity.acting_as].name,
         activity: &strategy.state(activity.machine(strategy), activity.state).name,
-        claims: picture.has_ball,
-        holder: if picture.has_ball { Some(id.number) } else { picture.carrier.map(|(number, _)| number) },
+        claims: team_model.has_ball,
+        holder: if team_model.has_ball {
+            Some(id.number)
+        } else {
+            team_model.carrier.map(|(number, _)| number)
+        },
         goes: booking.is_some_and(|booking| booking.0.goes()),
-        booker: match picture.booking {
-            Standing::Own => Some(id.number),
-            Standing::Mate(number) => Some(number),
-            Standing::Free => None,
+        booker: match team_model.booking {
+            BookingStatus::Own => Some(id.number),
+            BookingStatus::Mate(number) => Some(number),
+            BookingStatus::Free => None,
         },
         locked_by: swapping.and_then(|swapping| swapping.machine.lock()).map(|lock| lock.by),
         configuration: configuration.map(fingerprint),

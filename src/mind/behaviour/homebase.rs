@@ -43,7 +43,7 @@ pub(super) fn note_search(play: &Play, state: &State, searched: &mut Searched, s
 pub(super) fn choose(play: &Play, present: Vec2, searched: &[Vec2], senses: &Perception) -> Vec2 {
     let own = senses.model.pose.position;
     let mate = |role| {
-        let number = senses.picture.holder_of(role)?;
+        let number = senses.team_model.holder_of(role)?;
         Some(senses.model.mate(number)?.position)
     };
     let rule = if senses.teamwork.has(Mechanism::HomebaseSelection) {
@@ -57,7 +57,7 @@ pub(super) fn choose(play: &Play, present: Vec2, searched: &[Vec2], senses: &Per
     let chosen = match rule {
         HomebaseRule::Nearest => None,
         HomebaseRule::AwayFromGoalie => {
-            let away = senses.picture.goalie.side.map(|_| senses.picture.goalie.away(1.0, own));
+            let away = senses.team_model.goalie.side.map(|_| senses.team_model.goalie.away(1.0, own));
             away.and_then(|side| nearest(all().filter(|home| home.y * side > 0.0), own, present))
         }
         HomebaseRule::FarthestFrom(role) => mate(role.index).and_then(|mate| {
@@ -100,7 +100,7 @@ mod tests {
 
     fn situation() -> Situation {
         let mut situation = Situation::at(1.5, 1.0, 0.0).with(Mechanism::HomebaseSelection);
-        situation.picture.goalie.hear(
+        situation.team_model.goalie.hear(
             &GoalieNews { time: 1, robot: 0, behaviour: GoalieBehaviour::Entering, side: GoalSide::Left },
             1,
         );

@@ -1,7 +1,7 @@
 //! Decisions of one robot: sub-roles, homebases, transitions, and what is left of them under a changed strategy.
 
 use crate::ids::RobotId;
-use crate::mind::teamwork::TeamPicture;
+use crate::mind::teamwork::TeamModel;
 use crate::mind::world_model::WorldModel;
 use crate::robot::Odometry;
 use crate::robot::Orders;
@@ -48,7 +48,7 @@ impl Bench {
             WorldModel::default(),
         );
         let mind = (Memory::new(strategy.slots), Role(role), Activity::new(&strategy, role, 0));
-        let mind = (mind, TeamPicture::new(&strategy), Handling::new(Seed(1), id), Orders::default());
+        let mind = (mind, TeamModel::new(&strategy), Handling::new(Seed(1), id), Orders::default());
         let robot = world.spawn((parts, mind)).id();
         Bench { world, robot, strategy }
     }

@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::Perception;
 use crate::geometry::{Pose, Zone};
 use crate::ids::Team;
-use crate::mind::teamwork::TeamPicture;
+use crate::mind::teamwork::TeamModel;
 use crate::mind::world_model::{BallBelief, MateBelief, RobotBelief, WorldModel};
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::Assignment;
@@ -15,7 +15,7 @@ use crate::testing::pitch;
 /// What a home robot believes, and the rest of a [`Perception`]; change what a test is about.
 pub struct Situation {
     pub model: WorldModel,
-    pub picture: TeamPicture,
+    pub team_model: TeamModel,
     pub teamwork: Teamwork,
     pub pitch: Pitch,
     pub now: f32,
@@ -35,7 +35,7 @@ impl Situation {
     pub fn at(x: f32, y: f32, degrees: f32) -> Situation {
         Situation {
             model: WorldModel::told(Pose::new(x, y, degrees.to_radians())),
-            picture: TeamPicture::of(Assignment::new([0, 1, 2, 3])),
+            team_model: TeamModel::of(Assignment::new([0, 1, 2, 3])),
             teamwork: Teamwork::default(),
             pitch: pitch(),
             now: 0.0,
@@ -78,7 +78,7 @@ impl Situation {
             team: Team::Home,
             role: 2,
             model: &self.model,
-            picture: &self.picture,
+            team_model: &self.team_model,
             teamwork: &self.teamwork,
             pitch: &self.pitch,
             danger_zone: Situation::DANGER_ZONE,

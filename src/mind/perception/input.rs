@@ -5,7 +5,7 @@ use bevy::ecs::query::QueryData;
 use super::{Memory, Perception};
 use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::mind::teamwork::TeamPicture;
+use crate::mind::teamwork::TeamModel;
 use crate::mind::world_model::WorldModel;
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::handling::Handling;
@@ -27,7 +27,7 @@ pub struct DecisionInput {
     pub robot: &'static Robot,
     pub model: &'static WorldModel,
     pub odometry: &'static Odometry,
-    pub picture: &'static TeamPicture,
+    pub team_model: &'static TeamModel,
     pub role: &'static Role,
     pub handling: &'static Handling,
     pub orders: &'static Orders,
@@ -45,7 +45,7 @@ pub fn perception<'a>(
         team: input.id.team,
         role: input.role.0,
         model: input.model,
-        picture: input.picture,
+        team_model: input.team_model,
         teamwork: &strategy.teamwork,
         pitch,
         danger_zone: activity.danger_zone(strategy),

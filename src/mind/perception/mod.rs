@@ -22,7 +22,7 @@ use crate::mind::schemas::operators::{
     average, closest, difference, farther_than, intercept, merge, midpoint, shifted, sweet_spot, within,
     within_or_closest,
 };
-use crate::mind::teamwork::{Standing, TeamPicture};
+use crate::mind::teamwork::{BookingStatus, TeamModel};
 use crate::mind::world_model::{EXPECTED_ROLLING, WorldModel, roll_on};
 use crate::pitch::Pitch;
 use crate::strategy::language::{Feature, Point, Points, ZoneName};
@@ -38,7 +38,7 @@ pub struct Perception<'a> {
     /// The robot's role, as an index into the strategy's roles; not the sub-role that it acts in.
     pub role: usize,
     pub model: &'a WorldModel,
-    pub picture: &'a TeamPicture,
+    pub team_model: &'a TeamModel,
     pub teamwork: &'a Teamwork,
     pub pitch: &'a Pitch,
     pub danger_zone: Zone,
@@ -75,7 +75,9 @@ impl Perception<'_> {
     pub fn point(&self, point: &Point, memory: &mut Memory) -> Option<Vec2> {
         match point {
             Point::Ball => Some(self.model.ball?.position),
-            Point::TeamBall => self.model.ball.map(|ball| ball.position).or(self.picture.reports.freshest()),
+            Point::TeamBall => {
+                self.model.ball.map(|ball| ball.position).or(self.team_model.reports.freshest())
+            }
             Point::BallIn(seconds) => {
                 let ball = self.model.ball?;
                 Some(roll_on(ball.position, ball.velocity, EXPECTED_ROLLING, *seconds).0)
@@ -85,14 +87,14 @@ impl Perception<'_> {
             Point::Homebase => Some(self.homebase),
             Point::Own => Some(self.own().position),
             Point::Carrier => self.carrier(),
-            Point::Booker => match self.picture.booking {
-                Standing::Mate(number) => Some(self.model.mate(number)?.position),
-                Standing::Free | Standing::Own => None,
+            Point::Booker => match self.team_model.booking {
+                BookingStatus::Mate(number) => Some(self.model.mate(number)?.position),
+                BookingStatus::Free | BookingStatus::Own => None,
             },
-            Point::Teammate(role) => Some(self.model.mate(self.picture.holder_of(role.index)?)?.position),
+            Point::Teammate(role) => Some(self.model.mate(self.team_model.holder_of(role.index)?)?.position),
             Point::SupportSpot { behind, aside } => self.support_spot(*behind, *aside),
             Point::AwayFromGoalie { x, y } => {
-                Some(Vec2::new(*x, self.picture.goalie.away(*y, self.own().position)))
+                Some(Vec2::new(*x, self.team_model.goalie.away(*y, self.own().position)))
             }
             Point::At(place) => Some(*place),
             Point::Closest(of) => {
@@ -220,15 +222,17 @@ impl Perception<'_> {
             }),
             Feature::On(mechanism) => self.teamwork.has(*mechanism),
             Feature::InRole(role) => usize::from(role.index) == self.role,
-            Feature::HasBall => self.picture.has_ball,
+            Feature::HasBall => self.team_model.has_ball,
             Feature::TeammateHasBall(roles) => self
-                .picture
+                .team_model
                 .carrier
                 .is_some_and(|(_, role)| roles.is_empty() || roles.iter().any(|wanted| wanted.index == role)),
-            Feature::HasBooked => self.picture.booking == Standing::Own,
-            Feature::TeammateHasBooked => matches!(self.picture.booking, Standing::Mate(_)),
+            Feature::HasBooked => self.team_model.booking == BookingStatus::Own,
+            Feature::TeammateHasBooked => matches!(self.team_model.booking, BookingStatus::Mate(_)),
             Feature::HoldsBall => self.holds_ball,
-            Feature::GoalieIsOut => self.teamwork.has(Mechanism::GoalieSupport) && self.picture.goalie.is_out,
+            Feature::GoalieIsOut => {
+                self.teamwork.has(Mechanism::GoalieSupport) && self.team_model.goalie.is_out
+            }
             Feature::Stalled(seconds) => self.stalled_for >= *seconds,
             Feature::After(seconds) => self.time_in_state >= *seconds,
             Feature::HoldFor { what, seconds, slot } => {

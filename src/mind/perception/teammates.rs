@@ -45,7 +45,7 @@ impl Perception<'_> {
         if !self.teamwork.has(Mechanism::TeammateAvoidance) {
             return PointSet::new();
         }
-        let role = |number| self.picture.roles.of(number).map(usize::from);
+        let role = |number| self.team_model.roles.of(number).map(usize::from);
         let heard = self.model.mates.iter().filter(|mate| role(mate.number).is_some_and(&fits));
         let heard = heard.map(|mate| mate.position);
         match self.teamwork.teammates_by {
@@ -61,7 +61,7 @@ impl Perception<'_> {
 
     /// Where the team mate is that has claimed the ball.
     pub(super) fn carrier(&self) -> Option<Vec2> {
-        let (number, _) = self.picture.carrier?;
+        let (number, _) = self.team_model.carrier?;
         Some(self.model.mate(number)?.position)
     }
 

@@ -3,9 +3,9 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::picture::TeamPicture;
+use super::team_model::TeamModel;
 use crate::clock::Clock;
-use crate::comms::messages::{Inbox, Message};
+use crate::comms::messages::{Inbox, TeamMessage};
 use crate::comms::tcm::TcmClient;
 use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::world_model::WorldModel;
@@ -20,7 +20,7 @@ pub struct Booking(pub B3p);
 
 /// The booking of the ball, as a robot believes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Standing {
+pub enum BookingStatus {
     #[default]
     Free,
     Own,
@@ -54,7 +54,7 @@ pub(super) struct Bidder {
     activity: &'static Activity,
     inbox: &'static Inbox,
     booking: &'static mut Booking,
-    picture: &'static mut TeamPicture,
+    team_model: &'static mut TeamModel,
     client: &'static mut TcmClient,
     orders: &'static Orders,
 }
@@ -67,15 +67,15 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
             continue;
         }
         for received in &robot.inbox.0 {
-            if let Message::Book(book) = received.message {
+            if let TeamMessage::Book(book) = received.message {
                 robot.booking.0.step(clock.tick, Input::Hear { from: received.from, book });
             }
         }
         let input = robot.turn(strategy, &clock);
         if let Some(book) = robot.booking.0.step(clock.tick, input) {
-            robot.client.broadcast(&Message::Book(book));
+            robot.client.broadcast(&TeamMessage::Book(book));
         }
-        robot.picture.booking = robot.standing(clock.tick);
+        robot.team_model.booking = robot.status(clock.tick);
     }
 }
 
@@ -95,12 +95,12 @@ impl BidderItem<'_, '_> {
         Input::Turn { distance }
     }
 
-    fn standing(&self, tick: u64) -> Standing {
+    fn status(&self, tick: u64) -> BookingStatus {
         let machine = &self.booking.0;
         match machine.booking().filter(|_| machine.is_booked(tick)) {
-            _ if machine.goes() => Standing::Own,
-            Some(known) if known.robot_booker != self.id.number => Standing::Mate(known.robot_booker),
-            _ => Standing::Free,
+            _ if machine.goes() => BookingStatus::Own,
+            Some(known) if known.robot_booker != self.id.number => BookingStatus::Mate(known.robot_booker),
+            _ => BookingStatus::Free,
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use bevy::prelude::*;
 
-use super::picture::TeamPicture;
+use super::team_model::TeamModel;
 use crate::clock::Clock;
-use crate::comms::messages::{Inbox, Message, Received, Values};
+use crate::comms::messages::{Inbox, Received, TeamMessage, Values};
 use crate::ids::RobotId;
 use crate::robot::Robot;
 use crate::strategy::Strategies;
@@ -15,20 +15,20 @@ const GOALIE_MEMORY: f32 = 20.0;
 pub(super) fn hear_news(
     clock: Res<Clock>,
     strategies: Res<Strategies>,
-    mut robots: Query<(&RobotId, &Robot, &Inbox, &mut TeamPicture)>,
+    mut robots: Query<(&RobotId, &Robot, &Inbox, &mut TeamModel)>,
 ) {
-    for (id, robot, inbox, mut picture) in &mut robots {
+    for (id, robot, inbox, mut team) in &mut robots {
         if !robot.decides(&clock) {
             continue;
         }
         let memory = clock.ticks(strategies.of(id.team).teamwork.talk.claim_memory);
         for received in &inbox.0 {
-            picture.hear(received, clock.tick);
+            team.hear(received, clock.tick);
         }
-        picture.claims.forget(clock.tick, memory);
-        picture.goalie.forget(clock.tick, clock.ticks(GOALIE_MEMORY));
+        team.claims.forget(clock.tick, memory);
+        team.goalie.forget(clock.tick, clock.ticks(GOALIE_MEMORY));
         let ball_memory = clock.ticks(strategies.of(id.team).teamwork.talk.ball_memory);
-        picture.reports.forget(clock.tick, ball_memory);
+        team.reports.forget(clock.tick, ball_memory);
     }
 }
 
@@ -41,17 +41,20 @@ pub(super) fn take_messages(clock: Res<Clock>, mut robots: Query<(&Robot, &mut I
     }
 }
 
-impl TeamPicture {
+impl TeamModel {
     fn hear(&mut self, received: &Received, tick: u64) {
         match &received.message {
-            Message::HaveBall(message) => {
+            TeamMessage::HaveBall(message) => {
                 self.claims.hear(received.from, message, tick);
                 self.note_role(received.from, message.role);
             }
-            Message::Goalie(news) => self.goalie.hear(news, tick),
-            Message::Values(values) => self.hear_values(received, values, tick),
-            Message::BallReport(report) => self.reports.hear(received.from, report, tick),
-            Message::Position(_) | Message::RoleSwap(_) | Message::Book(_) | Message::Text(_) => {}
+            TeamMessage::Goalie(news) => self.goalie.hear(news, tick),
+            TeamMessage::Values(values) => self.hear_values(received, values, tick),
+            TeamMessage::BallReport(report) => self.reports.hear(received.from, report, tick),
+            TeamMessage::Position(_)
+            | TeamMessage::RoleSwap(_)
+            | TeamMessage::Book(_)
+            | TeamMessage::Text(_) => {}
         }
     }
 

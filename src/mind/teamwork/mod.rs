@@ -7,21 +7,21 @@ mod booking;
 mod claims;
 mod goalie;
 mod listen;
-mod picture;
 mod reports;
 mod swap;
 mod talk;
+mod team_model;
 #[cfg(test)]
 mod tests;
 
 use bevy::prelude::*;
 
-pub use booking::{Booking, Standing};
+pub use booking::{Booking, BookingStatus};
 pub use claims::{Claim, Claims};
 pub use goalie::GoalieWhereabouts;
-pub use picture::{Said, TeamPicture, kick_off_roles};
 pub use reports::{BallReports, Reported};
 pub use swap::Swapping;
+pub use team_model::{LastSent, TeamModel, kick_off_roles};
 
 use crate::schedule::{Tick, TickSystems};
 

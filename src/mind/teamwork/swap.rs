@@ -4,9 +4,9 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::picture::{TeamPicture, kick_off_roles};
+use super::team_model::{TeamModel, kick_off_roles};
 use crate::clock::Clock;
-use crate::comms::messages::{Inbox, Message};
+use crate::comms::messages::{Inbox, TeamMessage};
 use crate::comms::tcm::TcmClient;
 use crate::geometry::angle;
 use crate::ids::{PlayerNumber, RobotId};
@@ -82,7 +82,7 @@ pub(super) struct Swapper {
     inbox: &'static Inbox,
     model: &'static WorldModel,
     swapping: &'static mut Swapping,
-    picture: &'static mut TeamPicture,
+    team_model: &'static mut TeamModel,
     role: &'static mut Role,
     client: &'static mut TcmClient,
     off_pitch: Has<OffPitch>,
@@ -114,10 +114,10 @@ impl SwapperItem<'_, '_> {
     fn receive(&mut self, timers: &Timers, clock: &Clock) {
         for received in &self.inbox.0 {
             let input = match &received.message {
-                Message::RoleSwap(message) => {
+                TeamMessage::RoleSwap(message) => {
                     Input::Receive { from: received.from, message: message.clone() }
                 }
-                Message::Position(position) => match &position.configuration {
+                TeamMessage::Position(position) => match &position.configuration {
                     Some(configuration) => Input::Heard(configuration.clone()),
                     None => continue,
                 },
@@ -163,7 +163,7 @@ impl SwapperItem<'_, '_> {
         if !is_free || clock.tick < swapping.earliest {
             return;
         }
-        swapping.planned = Some(reassignment.apply(&self.picture.roles, &kick_off_roles(strategy)));
+        swapping.planned = Some(reassignment.apply(&self.team_model.roles, &kick_off_roles(strategy)));
         let participants = self.participants(spec.protocol, strategy.players.len());
         if participants.is_empty() {
             return;
@@ -196,10 +196,10 @@ impl SwapperItem<'_, '_> {
         let mates = self.model.mates.iter().filter_map(|mate| {
             Some(Player {
                 number: mate.number,
-                role: self.picture.roles.of(mate.number)?,
+                role: self.team_model.roles.of(mate.number)?,
                 position: mate.position,
                 heading: angle(mate.heading),
-                values: self.picture.values_of(mate.number, clock),
+                values: self.team_model.values_of(mate.number, clock),
             })
         });
         let mut players: SmallVec<[Player; 8]> = mates.chain([own]).collect();
@@ -219,7 +219,7 @@ impl SwapperItem<'_, '_> {
         let swapping = &mut *self.swapping;
         for effect in swapping.machine.step(input) {
             match effect {
-                Effect::Send { to, message } => self.client.send(to, &Message::RoleSwap(message)),
+                Effect::Send { to, message } => self.client.send(to, &TeamMessage::RoleSwap(message)),
                 Effect::Start(timer) => {
                     let seconds = match timer {
                         Timer::Lock => timers.lock,
@@ -229,10 +229,10 @@ impl SwapperItem<'_, '_> {
                     swapping.deadlines[timer as usize] = Some(clock.tick + clock.ticks(seconds));
                 }
                 Effect::Stop(timer) => swapping.deadlines[timer as usize] = None,
-                Effect::Announce => self.picture.announce = true,
+                Effect::Announce => self.team_model.announce = true,
                 Effect::Finished(Outcome::Completed) => {
                     if let Some(planned) = swapping.planned.take() {
-                        self.picture.roles = planned;
+                        self.team_model.roles = planned;
                     }
                 }
                 Effect::Finished(_) => {
@@ -250,11 +250,11 @@ impl SwapperItem<'_, '_> {
             self.role.0 = usize::from(role);
         }
         match self.swapping.machine.configuration() {
-            Some(configuration) if configuration.assignment != self.picture.roles => {
-                self.picture.roles = configuration.assignment.clone();
+            Some(configuration) if configuration.assignment != self.team_model.roles => {
+                self.team_model.roles = configuration.assignment.clone();
             }
             Some(_) => {}
-            None => self.picture.note_role(self.id.number, role),
+            None => self.team_model.note_role(self.id.number, role),
         }
     }
 }

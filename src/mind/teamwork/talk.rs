@@ -3,10 +3,10 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::picture::TeamPicture;
 use super::swap::Swapping;
+use super::team_model::TeamModel;
 use crate::clock::Clock;
-use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Message, Position, Values};
+use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Position, TeamMessage, Values};
 use crate::comms::tcm::TcmClient;
 use crate::geometry::unit;
 use crate::ids::RobotId;
@@ -14,7 +14,7 @@ use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::RoleIndex;
 use crate::robot::{OffPitch, Orders, Robot};
-use crate::strategy::teamwork::{Mechanism, Talk};
+use crate::strategy::teamwork::{Mechanism, MessageTiming};
 use crate::strategy::{Activity, Role, State, Strategies, Strategy};
 
 /// A robot that may claim the ball.
@@ -26,7 +26,7 @@ pub(super) struct Claimant {
     model: &'static WorldModel,
     activity: &'static Activity,
     role: &'static Role,
-    picture: &'static mut TeamPicture,
+    team_model: &'static mut TeamModel,
     orders: &'static Orders,
 }
 
@@ -39,9 +39,9 @@ pub(super) fn claim_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut rob
         let strategy = strategies.of(robot.id.team);
         let own = robot.is_at_ball(strategy).then_some((robot.id.number, robot.role.0 as RoleIndex));
         let claims = strategy.teamwork.has(Mechanism::Claims);
-        let holder = robot.picture.claims.holder(own, &strategy.teamwork).filter(|_| claims);
-        robot.picture.has_ball = holder.is_some() && holder == own;
-        robot.picture.carrier = holder.filter(|_| holder != own);
+        let holder = robot.team_model.claims.holder(own, &strategy.teamwork).filter(|_| claims);
+        robot.team_model.has_ball = holder.is_some() && holder == own;
+        robot.team_model.carrier = holder.filter(|_| holder != own);
     }
 }
 
@@ -69,7 +69,7 @@ pub(super) struct Speaker {
     activity: &'static Activity,
     role: &'static Role,
     swapping: Option<&'static Swapping>,
-    picture: &'static mut TeamPicture,
+    team_model: &'static mut TeamModel,
     client: &'static mut TcmClient,
 }
 
@@ -101,37 +101,41 @@ pub(super) fn send_news(
 
 impl SpeakerItem<'_, '_> {
     /// A claim is told when it begins, again and again while it lasts, and once when it ends.
-    fn send_have_ball(&mut self, talk: &Talk, clock: &Clock) {
-        let (has, said) = (self.picture.has_ball, self.picture.said.have_ball);
-        let is_due = match said {
+    fn send_have_ball(&mut self, talk: &MessageTiming, clock: &Clock) {
+        let (has, sent) = (self.team_model.has_ball, self.team_model.last_sent.have_ball);
+        let is_due = match sent {
             Some(since) => !has || clock.tick >= since + clock.ticks(talk.claim_every),
             None => has,
         };
         if is_due {
-            self.picture.said.have_ball = has.then_some(clock.tick);
+            self.team_model.last_sent.have_ball = has.then_some(clock.tick);
             let (time, robot, role) = (milliseconds(clock), self.id.number, self.role.0 as RoleIndex);
-            self.client.broadcast(&Message::HaveBall(HaveBall { time, robot, have_ball: has, role }));
+            self.client.broadcast(&TeamMessage::HaveBall(HaveBall { time, robot, have_ball: has, role }));
         }
     }
 
     fn send_goalie_news(&mut self, strategy: &Strategy, pitch: &Pitch, clock: &Clock) {
         let own = self.model.pose.position;
         let acquires = state(self.activity, strategy).acquires;
-        if let Some((behaviour, side)) = self.picture.border.update(own, pitch.own_penalty_area(), acquires) {
+        if let Some((behaviour, side)) =
+            self.team_model.border.update(own, pitch.own_penalty_area(), acquires)
+        {
             let (time, robot) = (milliseconds(clock), self.id.number);
-            self.client.broadcast(&Message::Goalie(GoalieNews { time, robot, behaviour, side }));
+            self.client.broadcast(&TeamMessage::Goalie(GoalieNews { time, robot, behaviour, side }));
         }
     }
 
-    fn send_position(&mut self, talk: &Talk, clock: &Clock) {
+    fn send_position(&mut self, talk: &MessageTiming, clock: &Clock) {
         let is_due = |last: u64| clock.tick >= last + clock.ticks(talk.position_every);
-        if !std::mem::take(&mut self.picture.announce) && !self.picture.said.position.is_none_or(is_due) {
+        if !std::mem::take(&mut self.team_model.announce)
+            && !self.team_model.last_sent.position.is_none_or(is_due)
+        {
             return;
         }
-        self.picture.said.position = Some(clock.tick);
+        self.team_model.last_sent.position = Some(clock.tick);
         let pose = self.model.pose;
         let (time, robot) = (milliseconds(clock), self.id.number);
-        self.client.broadcast(&Message::Position(Position {
+        self.client.broadcast(&TeamMessage::Position(Position {
             time,
             robot,
             position: pose.position,
@@ -139,20 +143,25 @@ impl SpeakerItem<'_, '_> {
             configuration: self.swapping.and_then(|swapping| swapping.machine.configuration()).cloned(),
         }));
         if let Some((values, wish)) = self.swapping.and_then(|swapping| swapping.values.clone()) {
-            self.client.broadcast(&Message::Values(Values { time, robot, values: values.to_vec(), wish }));
+            self.client.broadcast(&TeamMessage::Values(Values {
+                time,
+                robot,
+                values: values.to_vec(),
+                wish,
+            }));
         }
     }
 
     /// A ball is reported again and again while it is in sight.
-    fn send_ball_report(&mut self, talk: &Talk, clock: &Clock) {
+    fn send_ball_report(&mut self, talk: &MessageTiming, clock: &Clock) {
         let every = clock.ticks(talk.ball_every);
-        let is_due = self.picture.said.ball.is_none_or(|last| clock.tick >= last + every);
+        let is_due = self.team_model.last_sent.ball.is_none_or(|last| clock.tick >= last + every);
         let in_sight = |seen: u64| clock.tick.saturating_sub(seen) <= every;
         if let Some(ball) = self.model.ball.filter(|ball| is_due && in_sight(ball.seen)) {
-            self.picture.said.ball = Some(clock.tick);
+            self.team_model.last_sent.ball = Some(clock.tick);
             let age = clock.tick.saturating_sub(ball.seen) as f32 * clock.dt;
             let report = BallReport { time: milliseconds(clock), position: ball.position, age };
-            self.client.broadcast(&Message::BallReport(report));
+            self.client.broadcast(&TeamMessage::BallReport(report));
         }
     }
 }

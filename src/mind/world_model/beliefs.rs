@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 
 use super::ball_filter::{BallFilter, roll_on};
 use crate::clock::Clock;
-use crate::comms::messages::{Inbox, Message};
+use crate::comms::messages::{Inbox, TeamMessage};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{PlayerNumber, Team};
 use crate::pitch::Pitch;
@@ -263,7 +263,7 @@ impl WorldModel {
     /// Takes note of position messages; one that was overtaken by a later one is no news.
     pub(super) fn hear(&mut self, inbox: &Inbox, tick: u64) {
         for message in &inbox.0 {
-            let Message::Position(said) = &message.message else { continue };
+            let TeamMessage::Position(said) = &message.message else { continue };
             let mate = MateBelief {
                 number: message.from,
                 position: said.position,

@@ -10,7 +10,7 @@
 use serde::{Deserialize, Serialize};
 use smallvec::smallvec;
 
-use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
+use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use super::members::{Bidder, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
 use crate::data::{Bound, Fault, first_fault};
@@ -55,7 +55,7 @@ const REACH: usize = 0;
 const DEFEND: usize = 1;
 
 impl Art {
-    pub(super) fn decide(&self, cast: &Cast, knowledge: &Knowledge) -> Option<Reassignment> {
+    pub(super) fn decide(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<Reassignment> {
         let bidders = bidders(cast, knowledge, (self.values(cast, knowledge)?, None), self.max_age);
         let members = members(cast, knowledge);
         let me = me(&members, knowledge)?;
@@ -77,7 +77,7 @@ impl Art {
         exchange(cast, me, duty, &members)
     }
 
-    pub(super) fn values(&self, cast: &Cast, knowledge: &Knowledge) -> Option<ColumnValues> {
+    pub(super) fn values(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<ColumnValues> {
         let me = me(&members(cast, knowledge), knowledge)?;
         let ball = ball(knowledge)?;
         let reach = if knowledge.tight_control {

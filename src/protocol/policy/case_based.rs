@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 use smallvec::smallvec;
 
-use super::knowledge::{Cast, Duty, Knowledge};
+use super::knowledge::{Duty, Knowledge, SwapRoles};
 use super::members::{Distribution, Member, me, members, reassignment};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
@@ -45,12 +45,12 @@ impl Default for ClosestBecomesForward {
 impl CaseBased {
     pub(super) fn decide(
         &self,
-        cast: &Cast,
+        cast: &SwapRoles,
         knowledge: &Knowledge,
         lost_control: bool,
     ) -> Option<Reassignment> {
         stranded_halfback(cast, knowledge, lost_control, self.beyond)?;
-        let Cast { halfback, floater, forward } = *cast;
+        let SwapRoles { halfback, floater, forward } = *cast;
         Some(Reassignment::Roles(smallvec![(halfback, forward), (forward, floater), (floater, halfback)]))
     }
 
@@ -62,7 +62,7 @@ impl CaseBased {
 impl ClosestBecomesForward {
     pub(super) fn decide(
         &self,
-        cast: &Cast,
+        cast: &SwapRoles,
         knowledge: &Knowledge,
         lost_control: bool,
     ) -> Option<Reassignment> {
@@ -85,7 +85,12 @@ impl ClosestBecomesForward {
 }
 
 /// This robot, if it is a halfback that has lost the ball so far up the field.
-fn stranded_halfback(cast: &Cast, knowledge: &Knowledge, lost_control: bool, beyond: f32) -> Option<Member> {
+fn stranded_halfback(
+    cast: &SwapRoles,
+    knowledge: &Knowledge,
+    lost_control: bool,
+    beyond: f32,
+) -> Option<Member> {
     let me = me(&members(cast, knowledge), knowledge)?;
     let far_up = me.position.x > knowledge.half_length * beyond;
     (lost_control && far_up && me.duty == Duty::Halfback).then_some(me)

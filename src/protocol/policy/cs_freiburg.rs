@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
+use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use super::members::{Member, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
 use crate::data::{Bound, Fault, first_fault};
@@ -35,7 +35,7 @@ impl Default for CsFreiburg {
 }
 
 impl CsFreiburg {
-    pub(super) fn decide(&self, cast: &Cast, knowledge: &Knowledge) -> Option<Reassignment> {
+    pub(super) fn decide(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<Reassignment> {
         let (values, wish) = self.values(cast, knowledge)?;
         let wished = Duty::ALL.into_iter().find(|duty| wish == Some(duty.column() as u8))?;
         let bidders = bidders(cast, knowledge, (values, wish), self.max_age);
@@ -56,7 +56,11 @@ impl CsFreiburg {
         }
     }
 
-    pub(super) fn values(&self, cast: &Cast, knowledge: &Knowledge) -> Option<(ColumnValues, Option<u8>)> {
+    pub(super) fn values(
+        &self,
+        cast: &SwapRoles,
+        knowledge: &Knowledge,
+    ) -> Option<(ColumnValues, Option<u8>)> {
         let me = me(&members(cast, knowledge), knowledge)?;
         let ball = ball(knowledge)?;
         let utility = |duty| match duty {

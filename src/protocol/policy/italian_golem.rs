@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
+use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use super::members::{Members, bidders, by_importance, first_to_gain, me, members, reassignment};
 use super::places::{Places, ball, nearness};
 use crate::data::{Bound, Fault, first_fault};
@@ -44,7 +44,7 @@ impl Default for ItalianGolem {
 }
 
 impl ItalianGolem {
-    pub(super) fn decide(&self, cast: &Cast, knowledge: &Knowledge) -> Option<Reassignment> {
+    pub(super) fn decide(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<Reassignment> {
         let bidders = bidders(cast, knowledge, (self.values(cast, knowledge)?, None), self.max_age);
         let members: Members = bidders.iter().map(|bidder| bidder.member).collect();
         let value = |index: usize, duty: Duty| {
@@ -55,7 +55,7 @@ impl ItalianGolem {
         if first_to_gain(&distribution)? == knowledge.me { reassignment(cast, &distribution) } else { None }
     }
 
-    pub(super) fn values(&self, cast: &Cast, knowledge: &Knowledge) -> Option<ColumnValues> {
+    pub(super) fn values(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<ColumnValues> {
         let me = me(&members(cast, knowledge), knowledge)?;
         let ball = ball(knowledge)?;
         let value = |duty| {

@@ -9,7 +9,7 @@ use crate::protocol::role_swap::RoleIndex;
 /// The three roles that may be swapped, all different. In the words of CS Freiburg: defender, helping attacker and main
 /// attacker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cast {
+pub struct SwapRoles {
     pub halfback: RoleIndex,
     pub floater: RoleIndex,
     pub forward: RoleIndex,
@@ -31,7 +31,7 @@ impl Duty {
     }
 }
 
-impl Cast {
+impl SwapRoles {
     pub(super) fn role(&self, duty: Duty) -> RoleIndex {
         match duty {
             Duty::Forward => self.forward,

@@ -3,7 +3,7 @@
 use crate::geometry::Vec2;
 use smallvec::SmallVec;
 
-use super::knowledge::{Cast, ColumnValues, Duty, Knowledge};
+use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use crate::ids::PlayerNumber;
 use crate::protocol::role_swap::Reassignment;
 
@@ -31,7 +31,7 @@ pub(super) struct Bidder {
 pub(super) type Distribution = SmallVec<[(Member, Duty); 4]>;
 
 /// The members that were heard of lately.
-pub(super) fn members(cast: &Cast, knowledge: &Knowledge) -> Members {
+pub(super) fn members(cast: &SwapRoles, knowledge: &Knowledge) -> Members {
     let players = knowledge.players.iter().filter(|player| player.position.is_finite());
     let member = |player: &super::knowledge::Player| {
         let duty = cast.duty(player.role)?;
@@ -48,7 +48,7 @@ pub(super) fn me(members: &[Member], knowledge: &Knowledge) -> Option<Member> {
 /// The members whose values are sound and not older than `max_age` seconds, this robot with its own values `mine`. The others
 /// are left out: they keep their roles.
 pub(super) fn bidders(
-    cast: &Cast,
+    cast: &SwapRoles,
     knowledge: &Knowledge,
     mine: (ColumnValues, Option<u8>),
     max_age: f32,
@@ -110,14 +110,19 @@ pub(super) fn first_to_gain(distribution: &Distribution) -> Option<PlayerNumber>
 }
 
 /// The reassignment that brings a distribution about, if it changes anything.
-pub(super) fn reassignment(cast: &Cast, distribution: &Distribution) -> Option<Reassignment> {
+pub(super) fn reassignment(cast: &SwapRoles, distribution: &Distribution) -> Option<Reassignment> {
     let changes = distribution.iter().filter(|(member, duty)| member.duty != *duty);
     let changes: SmallVec<_> = changes.map(|(member, duty)| (member.number, cast.role(*duty))).collect();
     (!changes.is_empty()).then_some(Reassignment::Robots(changes))
 }
 
 /// The reassignment by which a robot takes a duty and gives its own in return.
-pub(super) fn exchange(cast: &Cast, taker: Member, duty: Duty, members: &[Member]) -> Option<Reassignment> {
+pub(super) fn exchange(
+    cast: &SwapRoles,
+    taker: Member,
+    duty: Duty,
+    members: &[Member],
+) -> Option<Reassignment> {
     let holder = members.iter().find(|member| member.duty == duty);
     let in_return = holder.map(|holder| (*holder, taker.duty));
     reassignment(cast, &[(taker, duty)].into_iter().chain(in_return).collect())

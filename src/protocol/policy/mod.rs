@@ -1,7 +1,7 @@
 //! When to swap roles, and how: policies after the teams that the Hammerheads paper describes (sections II and VII-B).
 //!
 //! A policy only looks and decides, without memory but for a small [`PolicyState`]; carrying a decision out over a bad radio
-//! is left to [`crate::protocol::role_swap`], with which any of them works. Only the robots of a [`Cast`] swap, never the
+//! is left to [`crate::protocol::role_swap`], with which any of them works. Only the robots of a [`SwapRoles`] swap, never the
 //! goalie. Positions are metres in the team frame, times seconds, and ties go to the lower number.
 //!
 //! | policy | who proposes a swap |
@@ -31,7 +31,7 @@ pub use art::Art;
 pub use case_based::{CaseBased, ClosestBecomesForward};
 pub use cs_freiburg::CsFreiburg;
 pub use italian_golem::ItalianGolem;
-pub use knowledge::{Cast, ColumnValues, Knowledge, Player, PolicyState, Valued};
+pub use knowledge::{ColumnValues, Knowledge, Player, PolicyState, SwapRoles, Valued};
 pub use optimal::Optimal;
 pub use places::Places;
 pub use rmit::Rmit;
@@ -53,7 +53,7 @@ impl Policy {
     /// How roles should be swapped now, if at all. To be asked again and again, for what changes in between counts too.
     pub fn decide(
         &self,
-        cast: &Cast,
+        cast: &SwapRoles,
         knowledge: &Knowledge,
         state: &mut PolicyState,
     ) -> Option<Reassignment> {
@@ -77,7 +77,7 @@ impl Policy {
 
     /// What this robot should broadcast: a value for each column, and the column that it would rather have. `None` for a
     /// policy that exchanges no values, and while the ball is not known.
-    pub fn values(&self, cast: &Cast, knowledge: &Knowledge) -> Option<(ColumnValues, Option<u8>)> {
+    pub fn values(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<(ColumnValues, Option<u8>)> {
         match self {
             Policy::CsFreiburg(policy) => policy.values(cast, knowledge),
             Policy::Art(policy) => Some((policy.values(cast, knowledge)?, None)),

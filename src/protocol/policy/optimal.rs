@@ -7,7 +7,7 @@ use pathfinding::kuhn_munkres::kuhn_munkres_min;
 use pathfinding::matrix::Matrix;
 use serde::{Deserialize, Serialize};
 
-use super::knowledge::{Cast, Knowledge};
+use super::knowledge::{Knowledge, SwapRoles};
 use super::members::{Distribution, Member, duties, members, reassignment};
 use super::places::{Places, ball};
 use crate::data::{Bound, Fault, first_fault};
@@ -30,7 +30,7 @@ impl Default for Optimal {
 }
 
 impl Optimal {
-    pub(super) fn decide(&self, cast: &Cast, knowledge: &Knowledge) -> Option<Reassignment> {
+    pub(super) fn decide(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<Reassignment> {
         let ball = ball(knowledge)?;
         let members = members(cast, knowledge);
         if members.first()?.number != knowledge.me {

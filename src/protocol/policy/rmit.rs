@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::knowledge::{Cast, Duty, Knowledge};
+use super::knowledge::{Duty, Knowledge, SwapRoles};
 use super::members::{by_importance, first_to_gain, members, reassignment};
 use super::places::ball;
 use crate::data::{Bound, Fault, first_fault};
@@ -31,7 +31,7 @@ impl Default for Rmit {
 }
 
 impl Rmit {
-    pub(super) fn decide(&self, cast: &Cast, knowledge: &Knowledge) -> Option<Reassignment> {
+    pub(super) fn decide(&self, cast: &SwapRoles, knowledge: &Knowledge) -> Option<Reassignment> {
         let ball = ball(knowledge)?;
         let members = members(cast, knowledge);
         let score = |index: usize, duty: Duty| {

@@ -13,7 +13,7 @@ use super::*;
 use crate::protocol::role_swap::Assignment;
 
 const GOALIE: RoleIndex = 3;
-const CAST: Cast = Cast { halfback: 0, floater: 1, forward: 2 };
+const CAST: SwapRoles = SwapRoles { halfback: 0, floater: 1, forward: 2 };
 /// The goalie is robot 3, the others are numbered as in figure 8.
 const KICK_OFF: [RoleIndex; 4] = [CAST.halfback, CAST.floater, CAST.forward, GOALIE];
 const HALF_LENGTH: f32 = 4.5;

@@ -2,10 +2,11 @@
 
 use super::{Resolver, Result};
 use crate::data::{Bound, Field};
-use crate::protocol::policy::Cast;
+use crate::protocol::policy::SwapRoles;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
-    BallBooking, CastFile, Mechanisms, RoleSwapFile, RoleSwapSpec, Talk, Teamwork, TeamworkFile, Timers,
+    BallBooking, Mechanisms, MessageTiming, RoleSwapFile, RoleSwapSpec, SwapRolesFile, Teamwork,
+    TeamworkFile, Timers,
 };
 
 impl Resolver<'_> {
@@ -48,7 +49,7 @@ impl Resolver<'_> {
         RoleIndex::try_from(index).or_else(|_| self.fault(at, "a strategy has 256 roles at most"))
     }
 
-    fn talk(&self, talk: &Talk, at: &Field) -> Result<()> {
+    fn talk(&self, talk: &MessageTiming, at: &Field) -> Result<()> {
         self.within(talk.position_every, Bound::SECONDS.positive(), &at.key("position_every"))?;
         self.within(talk.position_memory, Bound::SECONDS, &at.key("position_memory"))?;
         self.within(talk.claim_every, Bound::SECONDS.positive(), &at.key("claim_every"))?;
@@ -84,14 +85,14 @@ impl Resolver<'_> {
         })
     }
 
-    fn cast(&self, cast: &CastFile, at: &Field) -> Result<Cast> {
+    fn cast(&self, cast: &SwapRolesFile, at: &Field) -> Result<SwapRoles> {
         let halfback = self.role_index(&cast.halfback.name, &at.key("halfback"))?;
         let floater = self.role_index(&cast.floater.name, &at.key("floater"))?;
         let forward = self.role_index(&cast.forward.name, &at.key("forward"))?;
         if halfback == floater || floater == forward || forward == halfback {
             return self.fault(at, "needs three different roles");
         }
-        Ok(Cast { halfback, floater, forward })
+        Ok(SwapRoles { halfback, floater, forward })
     }
 
     fn timers(&self, timers: &Timers, at: &Field) -> Result<()> {

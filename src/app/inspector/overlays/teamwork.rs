@@ -12,7 +12,7 @@ use crate::app::view::picture::visuals::BodyVisual;
 use crate::app::view::state::{Overlay, Overlays};
 use crate::geometry::Attacking;
 use crate::ids::RobotId;
-use crate::mind::teamwork::{Swapping, TeamPicture};
+use crate::mind::teamwork::{Swapping, TeamModel};
 use crate::pitch::Pitch;
 use crate::robot::{OffPitch, Robot};
 use crate::strategy::{Activity, Strategies};
@@ -29,7 +29,7 @@ pub(super) struct Mate {
     id: &'static RobotId,
     robot: &'static Robot,
     activity: &'static Activity,
-    picture: &'static TeamPicture,
+    team_model: &'static TeamModel,
     swapping: Option<&'static Swapping>,
     off_pitch: Has<OffPitch>,
 }
@@ -67,7 +67,7 @@ pub(super) fn draw(
         let Some(at) = place_of(*mate.id) else { continue };
         let works = !mate.robot.condition.crashed;
         let reach = reach(&mate.robot.kind);
-        if works && mate.picture.has_ball {
+        if works && mate.team_model.has_ball {
             pens.strong.circle_2d(at, CLAIM * reach, colours::CLAIM).resolution(48);
         }
         if mate.swapping.is_some_and(|swapping| swapping.machine.lock().is_some()) {
@@ -78,7 +78,7 @@ pub(super) fn draw(
         let activity = activity.and_then(|machine| machine.states.get(mate.activity.state));
         let goal = match activity.and_then(|activity| supported(&activity.name)).filter(|_| works) {
             Some(Supported::Carrier) => {
-                let carrier = mate.picture.carrier.map(|(number, _)| RobotId { number, ..*mate.id });
+                let carrier = mate.team_model.carrier.map(|(number, _)| RobotId { number, ..*mate.id });
                 carrier.and_then(place_of)
             }
             Some(Supported::OwnGoal) => Some(own_goal(&pitch, state.attacking(mate.id.team))),

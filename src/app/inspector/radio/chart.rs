@@ -11,7 +11,7 @@ use super::layout::{Arrow, Axes, End, Labels};
 use super::locks::{attempt_story, lock_story};
 use super::words;
 use crate::app::view::colours;
-use crate::comms::messages::Message;
+use crate::comms::messages::TeamMessage;
 use crate::comms::radio::Transmission;
 use crate::comms::tcm::Data;
 use crate::ids::RobotId;
@@ -48,7 +48,7 @@ fn show_filters(ui: &mut egui::Ui, view: &mut RadioView) {
     ui.horizontal_wrapped(|ui| {
         show_spans(ui, view);
         ui.separator();
-        for known in Message::TYPES {
+        for known in TeamMessage::TYPES {
             let mut shown = view.filter.shows_kind(known.number);
             let tip = "Whether these messages are shown, here and on the pitch";
             if ui.checkbox(&mut shown, known.name).on_hover_text(tip).changed() {

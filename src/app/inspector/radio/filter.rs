@@ -66,14 +66,14 @@ pub fn is_of_a_swap(kind: DataType) -> bool {
 mod tests {
     use super::super::samples::{home, transmission};
     use super::*;
-    use crate::comms::messages::Message;
+    use crate::comms::messages::TeamMessage;
     use crate::comms::radio::TransmissionState;
     use crate::comms::tcm::Data;
 
     #[test]
     fn positions_are_off_at_first_and_everything_else_is_on() {
         let mut filter = Filter::default();
-        for known in Message::TYPES {
+        for known in TeamMessage::TYPES {
             assert_eq!(filter.shows_kind(known.number), known.number != DataType::POSITION);
         }
         let position = transmission(DataType::POSITION, 0, 1, 10, TransmissionState::Arrived(12));
@@ -94,7 +94,7 @@ mod tests {
 
     #[test]
     fn the_four_messages_of_the_protocol_are_those_of_a_swap() {
-        let swaps = Message::TYPES.iter().filter(|known| is_of_a_swap(known.number));
+        let swaps = TeamMessage::TYPES.iter().filter(|known| is_of_a_swap(known.number));
         assert_eq!(swaps.count(), 4);
         assert!(!is_of_a_swap(DataType::VALUES));
     }

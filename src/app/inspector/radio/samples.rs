@@ -1,6 +1,6 @@
 //! For the tests: robots and transmissions.
 
-use crate::comms::messages::Message;
+use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{Packet, Transmission, TransmissionState};
 use crate::comms::tcm::fragments::{USUAL_DATAGRAM, cut};
 use crate::comms::tcm::{DataType, ExternalMessage};
@@ -17,7 +17,13 @@ pub fn transmission(kind: DataType, from: u8, to: u8, sent: u64, state: Transmis
 }
 
 /// The transmission of a whole message between two robots of home.
-pub fn transmitted(message: &Message, from: u8, to: u8, sent: u64, state: TransmissionState) -> Transmission {
+pub fn transmitted(
+    message: &TeamMessage,
+    from: u8,
+    to: u8,
+    sent: u64,
+    state: TransmissionState,
+) -> Transmission {
     let message = ExternalMessage::of(message, home(from).into(), home(to).into());
     let bytes = cut(&message, 1, USUAL_DATAGRAM).expect("it is short").remove(0);
     let mut transmission = transmission(message.data_type, from, to, sent, state);

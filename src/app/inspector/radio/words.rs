@@ -2,7 +2,7 @@
 
 use crate::app::view::format;
 use crate::clock::Clock;
-use crate::comms::messages::Message;
+use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{Transmission, TransmissionState};
 use crate::comms::tcm::Data;
 use crate::comms::tcm::fragments::Header;
@@ -11,8 +11,8 @@ use crate::comms::tcm::fragments::Header;
 pub fn label(message: &Transmission) -> String {
     let kind = message.packet.kind;
     let read = Header::read(&message.packet.bytes).ok();
-    match read.and_then(|(header, data)| Message::unserialise(header.data_type, data)) {
-        Some(Message::RoleSwap(message)) => format!("{kind} {}", message.sequence()),
+    match read.and_then(|(header, data)| TeamMessage::unserialise(header.data_type, data)) {
+        Some(TeamMessage::RoleSwap(message)) => format!("{kind} {}", message.sequence()),
         _ => kind.to_string(),
     }
 }
@@ -46,12 +46,12 @@ mod tests {
     fn a_message_tells_its_kind_its_attempt_and_whether_it_arrived() {
         let clock = Clock::new(60.0);
         let ack = role_swap::Message::AckLock { sequence: 7, holds: Holding::Role(1) };
-        let arrived = transmitted(&Message::RoleSwap(ack), 2, 1, 60, TransmissionState::Arrived(63));
+        let arrived = transmitted(&TeamMessage::RoleSwap(ack), 2, 1, 60, TransmissionState::Arrived(63));
         assert_eq!(label(&arrived), "ACKLOCK 7");
         let told = "ACKLOCK 7 from home 2 to home 1\nsent at 1.00 s\narrived after 50 ms";
         assert_eq!(story(&arrived, &clock), told);
         let (behaviour, side) = (GoalieBehaviour::Leaving, GoalSide::Left);
-        let news = Message::Goalie(GoalieNews { time: 0, robot: 2, behaviour, side });
+        let news = TeamMessage::Goalie(GoalieNews { time: 0, robot: 2, behaviour, side });
         let lost = transmitted(&news, 2, 1, 60, TransmissionState::Lost(Loss::Jammed));
         assert_eq!(label(&lost), "goalie");
         assert!(story(&lost, &clock).ends_with("lost: jammed"));

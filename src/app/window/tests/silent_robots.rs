@@ -11,7 +11,7 @@ use crate::app::view::colours;
 use crate::app::view::time::remote_robots::Missing;
 use crate::app::view::time::remote_robots::tests::{REMOTE, write_addresses};
 use crate::clock::Clock;
-use crate::comms::tcm::party;
+use crate::comms::tcm::Peer;
 use crate::game::net::{self, RobotProcess, WirePlan};
 use crate::game::{Choice, MatchPlan};
 
@@ -23,7 +23,7 @@ fn robots_elsewhere_are_awaited_in_the_middle_and_who_falls_silent_in_play_is_na
     let wires = Box::new(WirePlan { udp: true, remote: vec![REMOTE], ..WirePlan::default() });
     let choice = Choice { wires, addresses: Some(addresses), seed: 3, ..Choice::default() };
     let plan = MatchPlan::read(&assets(), &choice).expect("the shipped match");
-    let at = plan.directory().address_of(party(REMOTE)).expect("it has an address");
+    let at = plan.directory().address_of(Peer::from(REMOTE)).expect("it has an address");
     let mut program = LaidOutWindow::with(MatchRequest::Match(choice));
     let size = vec2(1280.0, 720.0);
     let line = format!("Home 1 stands still: nobody answers at {at}");

@@ -3,11 +3,17 @@
 use binrw::io::Cursor;
 use binrw::{BinRead, BinWrite, binrw};
 
-use super::LARGEST_PIECE;
 use crate::comms::tcm::external_message::{Address, DataType, Module, Peer};
 
 /// The length of a header, bytes.
 pub const HEADER: usize = 28;
+
+/// The largest datagram that UDP over IPv4 can carry, bytes.
+pub const LARGEST_DATAGRAM: usize = 65_507;
+
+/// The largest piece in a datagram, bytes.
+pub(super) const LARGEST_PIECE: usize = LARGEST_DATAGRAM - HEADER;
+
 /// The first bytes of every datagram.
 pub const MAGIC: [u8; 3] = *b"TCM";
 /// The version of the layout, the byte after the magic.

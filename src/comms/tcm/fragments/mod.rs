@@ -11,17 +11,11 @@ mod limits;
 use crate::comms::tcm::external_message::{ExternalMessage, Peer};
 
 pub use assembly::{Assembly, AssemblyCounters, Refused, Unfinished};
-pub use header::{HEADER, Header, MAGIC, Malformed, VERSION};
+pub use header::{HEADER, Header, LARGEST_DATAGRAM, MAGIC, Malformed, VERSION};
 pub use limits::Limits;
-
-/// The largest datagram that UDP over IPv4 can carry, bytes.
-pub const LARGEST_DATAGRAM: usize = 65_507;
 
 /// A datagram that crosses usual networks without being cut up again by IP, bytes.
 pub const USUAL_DATAGRAM: usize = 1_400;
-
-/// The largest piece in a datagram, bytes.
-const LARGEST_PIECE: usize = LARGEST_DATAGRAM - HEADER;
 
 /// Why a message cannot be sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

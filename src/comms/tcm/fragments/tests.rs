@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 use proptest::sample::Index;
 
+use super::header::LARGEST_PIECE;
 use super::*;
 use crate::comms::tcm::external_message::{Address, DataType, Module};
 

@@ -67,7 +67,7 @@ fn a_robot_seen_where_a_mate_says_it_is_is_that_mate() {
 fn the_carrier_is_where_the_claimant_says_it_is() {
     let mut here = ranked();
     assert_eq!(places(&here, Points::Claimant), []);
-    here.picture.carrier = Some((3, 3));
+    here.team_model.carrier = Some((3, 3));
     assert_eq!(places(&here, Points::Claimant), [v(0.0, 1.0)]);
     assert!(holds(&here, Feature::TeammateHasBall(vec![])));
     assert!(holds(&here, Feature::TeammateHasBall(vec![role(3)])));
@@ -77,7 +77,7 @@ fn the_carrier_is_where_the_claimant_says_it_is() {
 #[test]
 fn support_is_behind_and_to_the_side_where_the_robot_is() {
     let mut here = Situation::at(0.0, 1.5, 0.0).mate(3, 1.0, 0.0);
-    here.picture.carrier = Some((3, 3));
+    here.team_model.carrier = Some((3, 3));
     let spot = Point::SupportSpot { behind: 1.0, aside: 0.5 };
     assert_eq!(place(&here, spot.clone()), Some(v(0.0, 0.5)));
     here.model.pose.position.y = -1.5;
@@ -87,7 +87,7 @@ fn support_is_behind_and_to_the_side_where_the_robot_is() {
 #[test]
 fn support_changes_sides_at_a_wall() {
     let mut here = Situation::at(0.0, 2.3, 0.0).mate(3, 4.4, 2.0);
-    here.picture.carrier = Some((3, 3));
+    here.team_model.carrier = Some((3, 3));
     let spot = place(&here, Point::SupportSpot { behind: 0.5, aside: 1.0 }).expect("the carrier is known");
     assert!(spot.y <= 2.1 && spot.x <= 4.1, "{spot}");
 }
@@ -96,8 +96,8 @@ fn support_changes_sides_at_a_wall() {
 fn a_role_is_where_the_robot_believed_to_have_it_says_it_is() {
     let mut here = ranked();
     assert_eq!(place(&here, Point::Teammate(role(3))), Some(v(0.0, 1.0)));
-    here.picture.claims.hear(1, &HaveBall { time: 1, robot: 1, have_ball: true, role: 3 }, 1);
-    here.picture.note_role(1, 3);
+    here.team_model.claims.hear(1, &HaveBall { time: 1, robot: 1, have_ball: true, role: 3 }, 1);
+    here.team_model.note_role(1, 3);
     assert_eq!(place(&here, Point::Teammate(role(3))), Some(v(1.0, 0.0)));
     assert_eq!(place(&here, Point::Teammate(role(1))), Some(v(0.0, 1.0)), "they have changed roles");
 }

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::booking::Standing;
+use super::booking::BookingStatus;
 use super::claims::Claims;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
 use super::reports::BallReports;
@@ -14,9 +14,9 @@ use crate::protocol::policy::Valued;
 use crate::protocol::role_swap::{Assignment, RoleIndex};
 use crate::strategy::Strategy;
 
-/// A robot's picture of its team; written by the Teamwork stage.
+/// What a robot believes of its team; written by the Teamwork stage.
 #[derive(Component, Clone, Debug, PartialEq)]
-pub struct TeamPicture {
+pub struct TeamModel {
     /// The believed roles.
     pub roles: Assignment,
     pub claims: Claims,
@@ -30,31 +30,31 @@ pub struct TeamPicture {
     /// What the team mates said last of the ball.
     pub reports: BallReports,
     /// The robot that has booked the ball, as this robot believes.
-    pub booking: Standing,
+    pub booking: BookingStatus,
     /// If the robot is the goalie.
     pub border: BorderWatch,
-    pub said: Said,
+    pub last_sent: LastSent,
     /// A position message is due at once, for it carries a new configuration.
     pub announce: bool,
 }
 
-/// When a robot said what last, in ticks.
+/// When a robot sent which news last, in ticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Said {
+pub struct LastSent {
     pub position: Option<u64>,
     pub have_ball: Option<u64>,
     pub ball: Option<u64>,
 }
 
-impl TeamPicture {
+impl TeamModel {
     /// A robot that has heard nothing yet: roles are as at kick-off.
-    pub fn new(strategy: &Strategy) -> TeamPicture {
-        TeamPicture::of(kick_off_roles(strategy))
+    pub fn new(strategy: &Strategy) -> TeamModel {
+        TeamModel::of(kick_off_roles(strategy))
     }
 
     /// A robot that knows the roles and nothing else.
-    pub fn of(roles: Assignment) -> TeamPicture {
-        TeamPicture {
+    pub fn of(roles: Assignment) -> TeamModel {
+        TeamModel {
             roles,
             claims: Claims::default(),
             has_ball: false,
@@ -62,9 +62,9 @@ impl TeamPicture {
             goalie: GoalieWhereabouts::default(),
             values: SmallVec::new(),
             reports: BallReports::default(),
-            booking: Standing::default(),
+            booking: BookingStatus::default(),
             border: BorderWatch::default(),
-            said: Said::default(),
+            last_sent: LastSent::default(),
             announce: false,
         }
     }

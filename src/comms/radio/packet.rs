@@ -1,0 +1,26 @@
+//! What the radio carries.
+
+use std::sync::Arc;
+
+use crate::comms::tcm::fragments::Header;
+use crate::comms::tcm::{DataType, Datagram};
+use crate::ids::RobotId;
+
+/// A datagram from one robot to one other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Packet {
+    /// What the message is about of which it brings a piece.
+    pub kind: DataType,
+    pub from: RobotId,
+    pub to: RobotId,
+    pub bytes: Arc<[u8]>,
+}
+
+impl Packet {
+    /// The packet that a datagram is; `None` if it is for a computer, or none of the TCM.
+    pub fn of(datagram: &Datagram) -> Option<Packet> {
+        let (header, _) = Header::read(&datagram.bytes).ok()?;
+        let (from, to) = (datagram.from, datagram.to.robot()?);
+        Some(Packet { kind: header.data_type, from, to, bytes: datagram.bytes.clone() })
+    }
+}
