@@ -2,13 +2,13 @@
 
 use stateright::{Model, Property};
 use touchline::ids::PlayerNumber;
-use touchline::protocol::b3p::{B3p, Book, Distance, Input, Term, Tick};
+use touchline::protocol::b3p::{B3p, Book, BookingInput, BookingTerm, Distance, OwnTick};
 
 use super::checks;
 use super::team::{Misfortune, Release, Team};
 
 /// What every robot's clock shows at all times: after each tick all are set back, so that equal situations are equal states.
-const NOW: Tick = 100;
+const NOW: OwnTick = 100;
 const MOST_ROBOTS: usize = 3;
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -80,7 +80,7 @@ impl State {
         robot.turned = true;
         let key = robot.machine.booking().map(|known| known.key);
         let distance = robot.sees.then(|| Distance(u32::from(robot.distance + noise)));
-        let Some(mut book) = robot.machine.step(NOW, Input::Turn { distance }) else { return };
+        let Some(mut book) = robot.machine.step(NOW, BookingInput::Turn { distance }) else { return };
         if book.distance.is_infinite() && team.release != Release::Repeated {
             let again = robot.released.is_some();
             let key_before = *robot.released.get_or_insert(key.unwrap_or_default());
@@ -123,7 +123,7 @@ impl State {
             book.term = book.term.saturating_sub(base);
             if book.term < least - base {
                 let nothing = Distance::default();
-                *book = Book { term: Term::default(), distance: nothing, key: nothing };
+                *book = Book { term: BookingTerm::default(), distance: nothing, key: nothing };
             }
         }
         self.in_flight.sort_unstable();
@@ -196,7 +196,7 @@ impl Model for Team {
             Action::Deliver(place) => {
                 let Envelope { from, to, book, .. } = state.in_flight.remove(place);
                 state.lost[usize::from(from)][usize::from(to)] = 0;
-                state.robots[usize::from(to)].machine.step(NOW, Input::Hear { from, book });
+                state.robots[usize::from(to)].machine.step(NOW, BookingInput::Hear { from, book });
             }
             Action::Lose(place) => {
                 let Envelope { from, to, .. } = state.in_flight.remove(place);

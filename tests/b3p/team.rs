@@ -1,7 +1,7 @@
 //! What a run is about: the team, its rules, its radio, where the ball may lie and what may happen once.
 
 use touchline::ids::PlayerNumber;
-use touchline::protocol::b3p::{B3p, Distance, Rules, Settings, Update};
+use touchline::protocol::b3p::{B3p, BookingSettings, Distance, Rules, Update};
 
 pub const ALWAYS: Rules = Rules::Paper(Update::Always);
 pub const CAUTIOUS: Rules = Rules::Paper(Update::Cautious);
@@ -122,7 +122,7 @@ impl Team {
     }
 
     pub fn machine(&self, robot: PlayerNumber) -> B3p {
-        let settings = Settings {
+        let settings = BookingSettings {
             rules: self.rules,
             threshold: Distance(self.threshold.into()),
             timeout: self.timeout.into(),

@@ -1,7 +1,7 @@
 //! What the runs check: properties of states, and facts about single steps, which a state remembers once they are watched.
 
 use stateright::{Checker, Model, Property};
-use touchline::protocol::role_swap::{Message, Order, Phase, RoleIndex, RoleSwap};
+use touchline::protocol::role_swap::{AttemptPhase, Message, Order, RoleIndex, RoleSwap};
 
 use super::model::{Action, Robot, State};
 use super::network::Envelope;
@@ -81,7 +81,8 @@ impl Check {
                 always("roles differ when quiet", |team, s| !team.is_quiet(s) || differ(s.live()))
             }
             Check::OneSwapPhase => always("one swap phase at a time", |_, s| {
-                let swaps = |robot: &&Robot| matches!(robot.machine.phase(), Phase::WaitingForAcks { .. });
+                let swaps =
+                    |robot: &&Robot| matches!(robot.machine.phase(), AttemptPhase::WaitingForAcks { .. });
                 s.live().filter(swaps).count() <= 1
             }),
             Check::Permutations => always("configurations are permutations", |team, s| {

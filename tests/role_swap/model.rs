@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use stateright::{Model, Property};
 use touchline::ids::PlayerNumber;
 use touchline::protocol::role_swap::{
-    Configuration, Effect, Effects, Input, Lock, Message, OnMissingAck, Phase, Reassignment, RoleSwap,
+    AttemptPhase, Configuration, Effect, Effects, Input, Lock, Message, OnMissingAck, Reassignment, RoleSwap,
     Sequence, Timer,
 };
 
@@ -49,7 +49,7 @@ pub enum Action {
 
 impl Robot {
     pub fn is_free(&self) -> bool {
-        self.machine.lock().is_none() && self.machine.phase() == Phase::Idle
+        self.machine.lock().is_none() && self.machine.phase() == AttemptPhase::Idle
     }
 
     /// The timers that run.
@@ -71,7 +71,7 @@ impl State {
     /// Whether a robot is engaged in its attempt of this number.
     pub fn attempt_goes_on(&self, initiator: PlayerNumber, attempt: Sequence) -> bool {
         let robot = self.robot(initiator);
-        let (Phase::WaitingForLocks { sequence } | Phase::WaitingForAcks { sequence }) =
+        let (AttemptPhase::WaitingForLocks { sequence } | AttemptPhase::WaitingForAcks { sequence }) =
             robot.machine.phase()
         else {
             return false;
@@ -99,22 +99,26 @@ impl Team {
         let machine = &state.robot(robot).machine;
         let network = &state.network;
         match (timer, machine.phase(), machine.lock()) {
-            (Timer::Locks, Phase::WaitingForLocks { sequence: q }, _) => machine.awaited().iter().all(|j| {
-                !network.any(robot, *j, |m| matches!(m, Message::Lock { sequence } if *sequence == q))
-                    && !network.any(
-                        *j,
-                        robot,
-                        |m| matches!(m, Message::AckLock { sequence, .. } if *sequence == q),
-                    )
-            }),
-            (Timer::Acks, Phase::WaitingForAcks { sequence: q }, _) => machine.awaited().iter().all(|j| {
-                !network.any(robot, *j, |m| matches!(m, Message::Swap { sequence, .. } if *sequence == q))
-                    && !network.any(
-                        *j,
-                        robot,
-                        |m| matches!(m, Message::AckSwap { sequence } if *sequence == q),
-                    )
-            }),
+            (Timer::Locks, AttemptPhase::WaitingForLocks { sequence: q }, _) => {
+                machine.awaited().iter().all(|j| {
+                    !network.any(robot, *j, |m| matches!(m, Message::Lock { sequence } if *sequence == q))
+                        && !network.any(
+                            *j,
+                            robot,
+                            |m| matches!(m, Message::AckLock { sequence, .. } if *sequence == q),
+                        )
+                })
+            }
+            (Timer::Acks, AttemptPhase::WaitingForAcks { sequence: q }, _) => {
+                machine.awaited().iter().all(|j| {
+                    !network.any(robot, *j, |m| matches!(m, Message::Swap { sequence, .. } if *sequence == q))
+                        && !network.any(
+                            *j,
+                            robot,
+                            |m| matches!(m, Message::AckSwap { sequence } if *sequence == q),
+                        )
+                })
+            }
             (Timer::Lock, _, Some(Lock { by, sequence: q })) => {
                 let swap = |m: &Message| matches!(m, Message::Swap { sequence, .. } if *sequence == q);
                 let swap_may_come = state.attempt_goes_on(by, q) || network.any(by, robot, swap);

@@ -2,7 +2,7 @@
 
 use stateright::{Checker, Model};
 use touchline::ids::PlayerNumber;
-use touchline::protocol::role_swap::{Configuration, Message, Order, Phase, RoleIndex, Timer};
+use touchline::protocol::role_swap::{AttemptPhase, Configuration, Message, Order, RoleIndex, Timer};
 
 use super::checks::Check;
 use super::model::{Action, State};
@@ -151,10 +151,10 @@ fn outcome(before: &State, after: &State, robot: PlayerNumber) -> String {
         _ => {}
     }
     match (was.phase(), is.phase()) {
-        (Phase::WaitingForLocks { .. }, Phase::WaitingForAcks { .. }) => {
+        (AttemptPhase::WaitingForLocks { .. }, AttemptPhase::WaitingForAcks { .. }) => {
             outcomes.push("has all locks".to_owned())
         }
-        (Phase::WaitingForLocks { .. } | Phase::WaitingForAcks { .. }, Phase::Idle) => {
+        (AttemptPhase::WaitingForLocks { .. } | AttemptPhase::WaitingForAcks { .. }, AttemptPhase::Idle) => {
             outcomes.push("ends its attempt".to_owned());
         }
         (phase, now) if phase == now && was.awaited().len() > is.awaited().len() => {

@@ -9,7 +9,7 @@ use crate::comms::messages::{Inbox, TeamMessage};
 use crate::comms::tcm::TcmClient;
 use crate::ids::{PlayerNumber, RobotId};
 use crate::mind::world_model::WorldModel;
-use crate::protocol::b3p::{B3p, Distance, Input, Settings};
+use crate::protocol::b3p::{B3p, BookingInput, BookingSettings, Distance};
 use crate::robot::{Orders, Robot};
 use crate::strategy::teamwork::{BallBooking, Mechanism};
 use crate::strategy::{Activity, Strategies, Strategy};
@@ -35,8 +35,8 @@ impl Booking {
     }
 }
 
-fn settings(spec: &BallBooking, clock: &Clock) -> Settings {
-    Settings {
+fn settings(spec: &BallBooking, clock: &Clock) -> BookingSettings {
+    BookingSettings {
         rules: spec.rules,
         threshold: Distance::from_metres(spec.threshold),
         timeout: clock.ticks(spec.timeout),
@@ -47,7 +47,7 @@ fn settings(spec: &BallBooking, clock: &Clock) -> Settings {
 /// A robot that books the ball.
 #[derive(QueryData)]
 #[query_data(mutable)]
-pub(super) struct Bidder {
+pub(super) struct Booker {
     id: &'static RobotId,
     robot: &'static Robot,
     model: &'static WorldModel,
@@ -60,7 +60,7 @@ pub(super) struct Bidder {
 }
 
 /// One turn of each robot's loop: what was announced, then what it does itself.
-pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robots: Query<Bidder>) {
+pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robots: Query<Booker>) {
     for mut robot in &mut robots {
         let strategy = strategies.of(robot.id.team);
         if !robot.robot.decides(&clock) || !strategy.teamwork.has(Mechanism::BallBooking) {
@@ -68,7 +68,7 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
         }
         for received in &robot.inbox.0 {
             if let TeamMessage::Book(book) = received.message {
-                robot.booking.0.step(clock.tick, Input::Hear { from: received.from, book });
+                robot.booking.0.step(clock.tick, BookingInput::Hear { from: received.from, book });
             }
         }
         let input = robot.turn(strategy, &clock);
@@ -79,12 +79,12 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
     }
 }
 
-impl BidderItem<'_, '_> {
+impl BookerItem<'_, '_> {
     /// A robot that knows where it is books the ball that it sees, if that is where its role may go; one that serves a
     /// penalty, off the pitch or where it stands, lets it go.
-    fn turn(&self, strategy: &Strategy, clock: &Clock) -> Input {
+    fn turn(&self, strategy: &Strategy, clock: &Clock) -> BookingInput {
         if self.orders.is_penalised() {
-            return Input::Withdraw;
+            return BookingInput::Withdraw;
         }
         let sight = strategy.teamwork.ball_booking.map_or(0, |spec| clock.ticks(spec.sight));
         let known = self.model.ball.filter(|_| self.model.is_localised());
@@ -92,7 +92,7 @@ impl BidderItem<'_, '_> {
         let zone = self.activity.danger_zone(strategy);
         let ball = in_sight.map(|ball| ball.position).filter(|at| zone.contains(*at));
         let distance = ball.map(|at| Distance::from_metres(at.distance(self.model.pose.position)));
-        Input::Turn { distance }
+        BookingInput::Turn { distance }
     }
 
     fn status(&self, tick: u64) -> BookingStatus {

@@ -15,7 +15,8 @@ use crate::pitch::BallKind;
 use crate::pitch::Pitch;
 use crate::protocol::policy::{ColumnValues, Knowledge, Player, PolicyState, Valued};
 use crate::protocol::role_swap::{
-    Assignment, Effect, Hardened, Input, Outcome, Paper, Phase, Reassignment, RoleIndex, RoleSwap, Timer,
+    Assignment, AttemptPhase, Effect, Hardened, Input, Outcome, Paper, Reassignment, RoleIndex, RoleSwap,
+    Timer,
 };
 use crate::rng::{Dice, Seed};
 use crate::robot::{OffPitch, Recall, Robot};
@@ -159,7 +160,7 @@ impl SwapperItem<'_, '_> {
         swapping.values = spec.policy.values(&spec.cast, &knowledge);
         let decision = spec.policy.decide(&spec.cast, &knowledge, &mut swapping.policy);
         let Some(reassignment) = swapping.asked.take().or(decision) else { return };
-        let is_free = swapping.machine.phase() == Phase::Idle && swapping.machine.lock().is_none();
+        let is_free = swapping.machine.phase() == AttemptPhase::Idle && swapping.machine.lock().is_none();
         if !is_free || clock.tick < swapping.earliest {
             return;
         }

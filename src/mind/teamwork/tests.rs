@@ -7,7 +7,7 @@ use crate::clock::Clock;
 use crate::comms::messages::{Inbox, Received, TeamMessage, Values};
 use crate::data::{AssetFolder, AssetKind};
 use crate::ids::{RobotId, Team};
-use crate::protocol::role_swap::{Assignment, Phase};
+use crate::protocol::role_swap::{Assignment, AttemptPhase};
 use crate::rng::Seed;
 use crate::robot::{Ailment, Condition, Robot};
 use crate::strategy::Strategy;
@@ -53,7 +53,7 @@ fn the_shipped_team_with_swaps_starts_in_the_roles_of_kick_off_and_idle() {
         let swapping = Swapping::new(&strategy, RobotId::new(Team::Home, number), Seed(1));
         let machine = swapping.expect("it swaps roles").machine;
         assert_eq!(usize::from(machine.role()), strategy.players[usize::from(number)]);
-        assert_eq!((machine.phase(), machine.lock()), (Phase::Idle, None));
+        assert_eq!((machine.phase(), machine.lock()), (AttemptPhase::Idle, None));
     }
 }
 

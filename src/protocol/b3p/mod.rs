@@ -16,9 +16,9 @@ pub use machine::B3p;
 use crate::ids::PlayerNumber;
 
 /// A moment on a robot's own clock.
-pub type Tick = u64;
+pub type OwnTick = u64;
 /// Counts who had the ball before: a booking of a greater term is newer.
-pub type Term = u32;
+pub type BookingTerm = u32;
 
 /// Which bookings a robot believes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -48,29 +48,29 @@ pub enum Update {
 
 /// How a team books the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Settings {
+pub struct BookingSettings {
     pub rules: Rules,
     /// A robot is nearer only if it is by at least so much. Above what the measured distances vary by, else robots take the
     /// ball from each other in turn.
     pub threshold: Distance,
     /// A booking older than this has expired. At least the longest time between two renewals that are heard, else a booker
     /// loses the ball although it is there.
-    pub timeout: Tick,
+    pub timeout: OwnTick,
     /// Ticks between two announcements of a booking.
-    pub renewal: Tick,
+    pub renewal: OwnTick,
 }
 
 /// What a robot believes about the ball: the paper's robot booker, distance and timestamp. That the ball is booked at all is
 /// that there is one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Booking {
+pub struct KnownBooking {
     pub robot_booker: PlayerNumber,
     /// The booker's distance when it was last heard; infinite if it has let the ball go.
     pub distance: Distance,
     /// When the booking was made or last renewed, on the clock of the robot that believes this.
-    pub timestamp: Tick,
+    pub timestamp: OwnTick,
     /// Zero but under the hardened rules.
-    pub term: Term,
+    pub term: BookingTerm,
     /// The distance at which the ball was first booked in this term; under the other rules the distance.
     pub key: Distance,
 }
@@ -79,13 +79,13 @@ pub struct Booking {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Book {
     pub distance: Distance,
-    pub term: Term,
+    pub term: BookingTerm,
     pub key: Distance,
 }
 
 /// What happens to a robot's side of the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Input {
+pub enum BookingInput {
     /// One turn of the robot's loop. Without a distance it does not know where the ball is.
     Turn { distance: Option<Distance> },
     /// A team mate announced a booking.

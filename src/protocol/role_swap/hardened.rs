@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::assignment::{Assignment, Configuration, Reassignment, RoleIndex, Sequence};
 use super::steps::{
-    Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Phase, Timer, participants,
+    AttemptPhase, Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Timer,
+    participants,
 };
 use crate::ids::PlayerNumber;
 
@@ -99,11 +100,11 @@ impl Hardened {
         &self.configuration
     }
 
-    pub fn phase(&self) -> Phase {
+    pub fn phase(&self) -> AttemptPhase {
         match self.attempt {
-            Attempt::Idle => Phase::Idle,
-            Attempt::Locks { sequence, .. } => Phase::WaitingForLocks { sequence },
-            Attempt::Acks { sequence, .. } => Phase::WaitingForAcks { sequence },
+            Attempt::Idle => AttemptPhase::Idle,
+            Attempt::Locks { sequence, .. } => AttemptPhase::WaitingForLocks { sequence },
+            Attempt::Acks { sequence, .. } => AttemptPhase::WaitingForAcks { sequence },
         }
     }
 

@@ -13,7 +13,9 @@ mod steps;
 pub use assignment::{Assignment, Configuration, Reassignment, RoleIndex, Sequence};
 pub use hardened::{Hardened, Ingredient};
 pub use paper::{OnMissingAck, Paper, PaperRules, Unlock, WhileInitiating};
-pub use steps::{Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Phase, Timer};
+pub use steps::{
+    AttemptPhase, Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Timer,
+};
 
 use crate::ids::PlayerNumber;
 
@@ -49,7 +51,7 @@ impl RoleSwap {
         }
     }
 
-    pub fn phase(&self) -> Phase {
+    pub fn phase(&self) -> AttemptPhase {
         match self {
             RoleSwap::Paper(machine) => machine.phase(),
             RoleSwap::Hardened(machine) => machine.phase(),

@@ -9,7 +9,8 @@ use smallvec::SmallVec;
 
 use super::assignment::{Assignment, Reassignment, RoleIndex, Sequence};
 use super::steps::{
-    Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Phase, Timer, participants,
+    AttemptPhase, Effect, Effects, Holding, Input, Lock, Message, Numbers, Order, Outcome, Timer,
+    participants,
 };
 use crate::ids::PlayerNumber;
 
@@ -63,11 +64,11 @@ pub struct Paper {
     role: RoleIndex,
     sequence: Sequence,
     lock: Option<Lock>,
-    attempt: Attempt,
+    attempt: PaperAttempt,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-enum Attempt {
+enum PaperAttempt {
     Idle,
     Locks { reassignment: Reassignment, others: Numbers, awaited: Numbers, current: Assignment },
     Acks { changes: SmallVec<[Change; 8]>, own: RoleIndex, awaited: Numbers, repeats: u8, rolls_back: bool },
@@ -85,7 +86,7 @@ impl Paper {
     /// `all` are the roles of the whole team at the start.
     pub fn new(me: PlayerNumber, all: Assignment, rules: PaperRules) -> Paper {
         let role = all.of(me).unwrap_or_default();
-        Paper { me, rules, at_start: all, role, sequence: 0, lock: None, attempt: Attempt::Idle }
+        Paper { me, rules, at_start: all, role, sequence: 0, lock: None, attempt: PaperAttempt::Idle }
     }
 
     pub fn step(&mut self, input: Input) -> Effects {
@@ -107,26 +108,26 @@ impl Paper {
         self.lock
     }
 
-    pub fn phase(&self) -> Phase {
+    pub fn phase(&self) -> AttemptPhase {
         let sequence = self.sequence;
         match self.attempt {
-            Attempt::Idle => Phase::Idle,
-            Attempt::Locks { .. } => Phase::WaitingForLocks { sequence },
-            Attempt::Acks { .. } => Phase::WaitingForAcks { sequence },
+            PaperAttempt::Idle => AttemptPhase::Idle,
+            PaperAttempt::Locks { .. } => AttemptPhase::WaitingForLocks { sequence },
+            PaperAttempt::Acks { .. } => AttemptPhase::WaitingForAcks { sequence },
         }
     }
 
     /// The robots whose answer this robot, as an initiator, still waits for.
     pub fn awaited(&self) -> &[PlayerNumber] {
         match &self.attempt {
-            Attempt::Idle => &[],
-            Attempt::Locks { awaited, .. } | Attempt::Acks { awaited, .. } => awaited,
+            PaperAttempt::Idle => &[],
+            PaperAttempt::Locks { awaited, .. } | PaperAttempt::Acks { awaited, .. } => awaited,
         }
     }
 
     /// Whether the acknowledgements waited for are those of a roll-back.
     pub fn rolls_back(&self) -> bool {
-        matches!(self.attempt, Attempt::Acks { rolls_back: true, .. })
+        matches!(self.attempt, PaperAttempt::Acks { rolls_back: true, .. })
     }
 
     /// Memory kept: the role and the counter survive. Memory lost: as at the start.
@@ -140,7 +141,7 @@ impl Paper {
 
     fn initiate(&mut self, reassignment: Reassignment, named: &[PlayerNumber]) -> Effects {
         let mut effects = Effects::new();
-        if self.lock.is_some() || self.attempt != Attempt::Idle {
+        if self.lock.is_some() || self.attempt != PaperAttempt::Idle {
             return effects;
         }
         self.sequence = self.sequence.wrapping_add(1);
@@ -148,7 +149,7 @@ impl Paper {
         let message = Message::Lock { sequence: self.sequence };
         effects.extend(others.iter().map(|to| Effect::Send { to: *to, message: message.clone() }));
         let (awaited, current) = (others.clone(), self.at_start.clone());
-        self.attempt = Attempt::Locks { reassignment, others, awaited, current };
+        self.attempt = PaperAttempt::Locks { reassignment, others, awaited, current };
         if self.awaited().is_empty() {
             self.reassign(&mut effects);
         } else {
@@ -176,7 +177,8 @@ impl Paper {
     }
 
     fn grant(&mut self, by: PlayerNumber, sequence: Sequence) -> Effects {
-        let busy = self.attempt != Attempt::Idle && self.rules.while_initiating == WhileInitiating::Refuse;
+        let busy =
+            self.attempt != PaperAttempt::Idle && self.rules.while_initiating == WhileInitiating::Refuse;
         if busy || self.lock.is_some() {
             return Effects::new();
         }
@@ -202,7 +204,7 @@ impl Paper {
 
     fn count_lock(&mut self, from: PlayerNumber, counted: Sequence, role: RoleIndex) -> Effects {
         let mut effects = Effects::new();
-        if let Attempt::Locks { awaited, current, .. } = &mut self.attempt
+        if let PaperAttempt::Locks { awaited, current, .. } = &mut self.attempt
             && counted == self.sequence
             && awaited.contains(&from)
         {
@@ -218,7 +220,7 @@ impl Paper {
 
     /// All locks are there.
     fn reassign(&mut self, effects: &mut Effects) {
-        let Attempt::Locks { reassignment, others, current, .. } = &mut self.attempt else { return };
+        let PaperAttempt::Locks { reassignment, others, current, .. } = &mut self.attempt else { return };
         current.set(self.me, self.role);
         let target = reassignment.apply(current, &self.at_start);
         let own = target.of(self.me).unwrap_or(self.role);
@@ -227,7 +229,7 @@ impl Paper {
         };
         let changes: SmallVec<[Change; 8]> = others.iter().filter_map(change).collect();
         let awaited = std::mem::take(others);
-        self.attempt = Attempt::Acks { changes, own, awaited, repeats: 0, rolls_back: false };
+        self.attempt = PaperAttempt::Acks { changes, own, awaited, repeats: 0, rolls_back: false };
         if self.awaited().is_empty() {
             self.complete(own, effects);
         } else {
@@ -238,13 +240,13 @@ impl Paper {
 
     fn complete(&mut self, role: RoleIndex, effects: &mut Effects) {
         self.role = role;
-        self.attempt = Attempt::Idle;
+        self.attempt = PaperAttempt::Idle;
         effects.push(Effect::Finished(Outcome::Completed));
     }
 
     fn count_ack(&mut self, from: PlayerNumber, counted: Sequence) -> Effects {
         let mut effects = Effects::new();
-        if let Attempt::Acks { awaited, own, rolls_back, .. } = &mut self.attempt
+        if let PaperAttempt::Acks { awaited, own, rolls_back, .. } = &mut self.attempt
             && counted == self.sequence
         {
             awaited.retain(|robot| *robot != from);
@@ -262,7 +264,7 @@ impl Paper {
     }
 
     fn give_up(&mut self, outcome: Outcome, effects: &mut Effects) {
-        self.attempt = Attempt::Idle;
+        self.attempt = PaperAttempt::Idle;
         effects.push(Effect::Finished(outcome));
     }
 
@@ -270,15 +272,17 @@ impl Paper {
         let mut effects = Effects::new();
         match (timer, &self.attempt) {
             (Timer::Lock, _) => self.lock = None,
-            (Timer::Locks, Attempt::Locks { .. }) => self.give_up(Outcome::LocksMissing, &mut effects),
-            (Timer::Acks, Attempt::Acks { .. }) => self.miss_acks(&mut effects),
+            (Timer::Locks, PaperAttempt::Locks { .. }) => self.give_up(Outcome::LocksMissing, &mut effects),
+            (Timer::Acks, PaperAttempt::Acks { .. }) => self.miss_acks(&mut effects),
             _ => {}
         }
         effects
     }
 
     fn miss_acks(&mut self, effects: &mut Effects) {
-        let Attempt::Acks { changes, awaited, repeats, rolls_back, .. } = &mut self.attempt else { return };
+        let PaperAttempt::Acks { changes, awaited, repeats, rolls_back, .. } = &mut self.attempt else {
+            return;
+        };
         let (sends, waits) = match (self.rules.on_missing_ack, *rolls_back) {
             (OnMissingAck::Resend { tries: limit }, _)
             | (OnMissingAck::RollBackUntilAcknowledged { retries: limit }, true) => {
@@ -303,7 +307,7 @@ impl Paper {
 
     /// A SWAP to each robot whose acknowledgement is awaited, there or back.
     fn send_orders(&self, effects: &mut Effects) {
-        let Attempt::Acks { changes, awaited, rolls_back, .. } = &self.attempt else { return };
+        let PaperAttempt::Acks { changes, awaited, rolls_back, .. } = &self.attempt else { return };
         let sequence = self.sequence;
         effects.extend(changes.iter().filter(|change| awaited.contains(&change.robot)).map(|change| {
             let order = Order::Role(if *rolls_back { change.from } else { change.to });

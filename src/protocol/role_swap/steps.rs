@@ -120,7 +120,7 @@ pub struct Lock {
 
 /// What a robot does as an initiator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Phase {
+pub enum AttemptPhase {
     Idle,
     WaitingForLocks { sequence: Sequence },
     WaitingForAcks { sequence: Sequence },

@@ -150,9 +150,9 @@ pub(super) fn write(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::protocol::b3p::{Book, Input, Rules, Settings};
+    use crate::protocol::b3p::{Book, BookingInput, BookingSettings, Rules};
 
-    const SETTINGS: Settings = Settings {
+    const SETTINGS: BookingSettings = BookingSettings {
         rules: Rules::Hardened { release: false },
         threshold: Distance(300),
         timeout: 60,
@@ -167,8 +167,8 @@ mod tests {
     fn pair() -> [B3p; 2] {
         let (mut booker, mut mate) = (B3p::new(1, SETTINGS), B3p::new(2, SETTINGS));
         let distance = Distance(840);
-        booker.step(10, Input::Turn { distance: Some(distance) });
-        mate.step(12, Input::Hear { from: 1, book: Book { distance, term: 1, key: distance } });
+        booker.step(10, BookingInput::Turn { distance: Some(distance) });
+        mate.step(12, BookingInput::Hear { from: 1, book: Book { distance, term: 1, key: distance } });
         [booker, mate]
     }
 

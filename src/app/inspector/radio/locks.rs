@@ -7,7 +7,7 @@ use crate::app::view::state::AfterTick;
 use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::mind::teamwork::Swapping;
-use crate::protocol::role_swap::{Lock, Phase, Sequence};
+use crate::protocol::role_swap::{AttemptPhase, Lock, Sequence};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_plugins((history::plugin::<Lock>, history::plugin::<SwapAttempt>)).add_systems(AfterTick, look);
@@ -41,8 +41,8 @@ fn look(
     for (robot, swapping) in &robots {
         locks.note(tick, *robot, swapping.machine.lock());
         let attempt = match swapping.machine.phase() {
-            Phase::Idle => None,
-            Phase::WaitingForLocks { sequence } | Phase::WaitingForAcks { sequence } => {
+            AttemptPhase::Idle => None,
+            AttemptPhase::WaitingForLocks { sequence } | AttemptPhase::WaitingForAcks { sequence } => {
                 Some(SwapAttempt { sequence })
             }
         };

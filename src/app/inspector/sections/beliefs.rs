@@ -124,11 +124,11 @@ fn named(ui: &egui::Ui, name: String, team: Team) -> egui::WidgetText {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::protocol::b3p::{Book, Distance, Input, Rules, Settings};
+    use crate::protocol::b3p::{Book, BookingInput, BookingSettings, Distance, Rules};
 
     #[test]
     fn a_booking_is_told_until_it_has_expired_and_then_that_it_has() {
-        let settings = Settings {
+        let settings = BookingSettings {
             rules: Rules::Hardened { release: true },
             threshold: Distance(300),
             timeout: 60,
@@ -138,11 +138,13 @@ mod tests {
         let told = |machine: &B3p, own, tick| booked(machine, own, tick, 1.0 / 60.0);
         assert_eq!(told(&machine, 3, 0), "not booked");
         let book = Book { distance: Distance(840), term: 5, key: Distance(840) };
-        machine.step(100, Input::Hear { from: 2, book });
+        machine.step(100, BookingInput::Hear { from: 2, book });
         assert_eq!(told(&machine, 3, 118), "booked by 2, 0.84 m, 0.3 s ago, term 5");
         assert_eq!(told(&machine, 3, 190), "booked by 2, 0.84 m, 1.5 s ago, term 5: expired");
-        machine
-            .step(200, Input::Hear { from: 2, book: Book { distance: Distance::INFINITE, term: 6, ..book } });
+        machine.step(
+            200,
+            BookingInput::Hear { from: 2, book: Book { distance: Distance::INFINITE, term: 6, ..book } },
+        );
         assert_eq!(told(&machine, 2, 200), "let go by itself, 0.0 s ago, term 6");
     }
 }

@@ -18,32 +18,34 @@ fn number(most: u32) -> impl Strategy<Value = u32> {
     prop_oneof![8 => 0..=most, 1 => any::<u32>(), 1 => Just(u32::MAX), 1 => Just(u32::MAX - 1)]
 }
 
-fn settings(rules: impl Strategy<Value = Rules>) -> impl Strategy<Value = Settings> {
-    (rules, number(3), number(6), number(4)).prop_map(|(rules, threshold, timeout, renewal)| Settings {
-        rules,
-        threshold: Distance(threshold),
-        timeout: timeout.into(),
-        renewal: renewal.into(),
+fn settings(rules: impl Strategy<Value = Rules>) -> impl Strategy<Value = BookingSettings> {
+    (rules, number(3), number(6), number(4)).prop_map(|(rules, threshold, timeout, renewal)| {
+        BookingSettings {
+            rules,
+            threshold: Distance(threshold),
+            timeout: timeout.into(),
+            renewal: renewal.into(),
+        }
     })
 }
 
-fn turn() -> impl Strategy<Value = Input> {
+fn turn() -> impl Strategy<Value = BookingInput> {
     prop::option::weighted(0.8, number(9))
-        .prop_map(|distance| Input::Turn { distance: distance.map(Distance) })
+        .prop_map(|distance| BookingInput::Turn { distance: distance.map(Distance) })
 }
 
-fn input() -> impl Strategy<Value = Input> {
+fn input() -> impl Strategy<Value = BookingInput> {
     let hear = (0..4_u8, number(9), number(9), number(9)).prop_map(|(from, distance, term, key)| {
         let book = Book { distance: Distance(distance), term, key: Distance(key) };
-        Input::Hear { from, book }
+        BookingInput::Hear { from, book }
     });
-    prop_oneof![3 => turn(), 3 => hear, 1 => Just(Input::Withdraw)]
+    prop_oneof![3 => turn(), 3 => hear, 1 => Just(BookingInput::Withdraw)]
 }
 
 /// What may happen to a pair of robots.
 #[derive(Clone, Copy, Debug)]
 enum Event {
-    Happens(usize, Input),
+    Happens(usize, BookingInput),
     /// The oldest message that this robot has not heard arrives.
     Arrives(usize),
     Passes,
@@ -52,7 +54,7 @@ enum Event {
 fn event() -> impl Strategy<Value = Event> {
     prop_oneof![
         4 => (0..2_usize, turn()).prop_map(|(robot, turn)| Event::Happens(robot, turn)),
-        1 => (0..2_usize).prop_map(|robot| Event::Happens(robot, Input::Withdraw)),
+        1 => (0..2_usize).prop_map(|robot| Event::Happens(robot, BookingInput::Withdraw)),
         3 => (0..2_usize).prop_map(Event::Arrives),
         3 => Just(Event::Passes),
     ]
@@ -62,15 +64,15 @@ fn event() -> impl Strategy<Value = Event> {
 struct Pair {
     robots: [B3p; 2],
     unheard: [Vec<Book>; 2],
-    now: Tick,
+    now: OwnTick,
 }
 
 impl Pair {
-    fn new(settings: Settings) -> Pair {
+    fn new(settings: BookingSettings) -> Pair {
         Pair { robots: [0, 1].map(|me| B3p::new(me, settings)), unheard: [vec![], vec![]], now: 0 }
     }
 
-    fn happens(&mut self, robot: usize, input: Input) {
+    fn happens(&mut self, robot: usize, input: BookingInput) {
         let said = self.robots[robot].step(self.now, input);
         self.unheard[1 - robot].extend(said);
     }
@@ -78,7 +80,7 @@ impl Pair {
     fn arrives(&mut self, robot: usize) {
         if !self.unheard[robot].is_empty() {
             let book = self.unheard[robot].remove(0);
-            self.happens(robot, Input::Hear { from: 1 - robot as PlayerNumber, book });
+            self.happens(robot, BookingInput::Hear { from: 1 - robot as PlayerNumber, book });
         }
     }
 
@@ -105,9 +107,9 @@ proptest! {
         for (now, input) in inputs {
             let said = robot.step(now.into(), input);
             match input {
-                Input::Turn { distance } => sees = distance.is_some_and(|distance| !distance.is_infinite()),
-                Input::Withdraw => sees = false,
-                Input::Hear { .. } => prop_assert_eq!(said, None),
+                BookingInput::Turn { distance } => sees = distance.is_some_and(|distance| !distance.is_infinite()),
+                BookingInput::Withdraw => sees = false,
+                BookingInput::Hear { .. } => prop_assert_eq!(said, None),
             }
             let books = robot.booking().is_some_and(|known| known.robot_booker == 1);
             prop_assert_eq!(robot.goes(), sees && books);
@@ -139,7 +141,7 @@ proptest! {
         for (now, input) in (0..).zip(inputs) {
             robot.step(now, input);
         }
-        robot.step(settings.timeout + 61, Input::Turn { distance: Some(Distance(5)) });
+        robot.step(settings.timeout + 61, BookingInput::Turn { distance: Some(Distance(5)) });
         prop_assert!(robot.goes());
     }
 
@@ -166,14 +168,14 @@ proptest! {
         forgeries in prop::collection::vec((0..2_usize, input()), 0..20),
     ) {
         let rules = Rules::Hardened { release };
-        let mut pair = Pair::new(Settings { rules, threshold: Distance(1), timeout: 3, renewal: 1 });
+        let mut pair = Pair::new(BookingSettings { rules, threshold: Distance(1), timeout: 3, renewal: 1 });
         for (robot, input) in forgeries {
             pair.happens(robot, input);
             pair.now += 1;
         }
         for _ in 0..12 {
             for robot in [0, 1] {
-                pair.happens(robot, Input::Turn { distance: Some(Distance(distances[robot])) });
+                pair.happens(robot, BookingInput::Turn { distance: Some(Distance(distances[robot])) });
             }
             pair.hear_all();
             pair.now += 1;

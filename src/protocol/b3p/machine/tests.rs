@@ -15,8 +15,8 @@ const LEXICOGRAPHIC: Rules = RULES[2];
 const HARDENED: Rules = RULES[3];
 const RELEASING: Rules = RULES[4];
 
-fn settings(rules: Rules) -> Settings {
-    Settings { rules, threshold: Distance(100), timeout: 10, renewal: 3 }
+fn settings(rules: Rules) -> BookingSettings {
+    BookingSettings { rules, threshold: Distance(100), timeout: 10, renewal: 3 }
 }
 
 /// Robot 1, which knows nothing.
@@ -39,21 +39,21 @@ fn booker(rules: Rules) -> B3p {
     robot
 }
 
-fn book(term: Term, key: u32, distance: u32) -> Book {
+fn book(term: BookingTerm, key: u32, distance: u32) -> Book {
     Book { distance: Distance(distance), term, key: Distance(key) }
 }
 
-fn see(robot: &mut B3p, now: Tick, distance: u32) -> Option<Book> {
-    robot.step(now, Input::Turn { distance: Some(Distance(distance)) })
+fn see(robot: &mut B3p, now: OwnTick, distance: u32) -> Option<Book> {
+    robot.step(now, BookingInput::Turn { distance: Some(Distance(distance)) })
 }
 
-fn see_nothing(robot: &mut B3p, now: Tick) -> Option<Book> {
-    robot.step(now, Input::Turn { distance: None })
+fn see_nothing(robot: &mut B3p, now: OwnTick) -> Option<Book> {
+    robot.step(now, BookingInput::Turn { distance: None })
 }
 
 /// Whether the robot believes it.
-fn hear(robot: &mut B3p, now: Tick, from: PlayerNumber, book: Book) -> bool {
-    assert_eq!(robot.step(now, Input::Hear { from, book }), None, "hearing is not answered");
+fn hear(robot: &mut B3p, now: OwnTick, from: PlayerNumber, book: Book) -> bool {
+    assert_eq!(robot.step(now, BookingInput::Hear { from, book }), None, "hearing is not answered");
     robot.booking().is_some_and(|known| (known.robot_booker, known.distance) == (from, book.distance))
 }
 
@@ -62,10 +62,13 @@ fn a_free_ball_is_booked_and_that_is_announced() {
     for rules in RULES {
         let mut robot = robot(rules);
         assert!(!robot.is_booked(7) && !robot.goes());
-        let term = Term::from(robot.counts_terms());
+        let term = BookingTerm::from(robot.counts_terms());
         assert_eq!(see(&mut robot, 7, 500), Some(book(term, 500, 500)));
         let (distance, key) = (Distance(500), Distance(500));
-        assert_eq!(robot.booking(), Some(&Booking { robot_booker: 1, distance, timestamp: 7, term, key }));
+        assert_eq!(
+            robot.booking(),
+            Some(&KnownBooking { robot_booker: 1, distance, timestamp: 7, term, key })
+        );
         assert!(robot.is_booked(7) && robot.goes());
     }
 }
@@ -129,7 +132,7 @@ fn without_the_ball_in_sight_nobody_books_or_goes() {
     for rules in RULES {
         let mut robot = robot(rules);
         assert_eq!(see_nothing(&mut robot, 0), None);
-        assert_eq!(robot.step(0, Input::Turn { distance: Some(Distance::INFINITE) }), None);
+        assert_eq!(robot.step(0, BookingInput::Turn { distance: Some(Distance::INFINITE) }), None);
         assert!(!robot.goes() && !robot.is_booked(0));
         let mut robot = booker(rules);
         see_nothing(&mut robot, 1);
@@ -216,13 +219,13 @@ fn whoever_sees_a_released_ball_books_it() {
 fn a_robot_that_withdraws_frees_its_booking_and_no_other() {
     for rules in RULES {
         let mut robot = booker(rules);
-        let said = robot.step(1, Input::Withdraw);
+        let said = robot.step(1, BookingInput::Withdraw);
         assert_eq!(said.is_some(), rules == RELEASING);
         assert!(!robot.goes() && !robot.is_booked(1));
-        let term = if robot.counts_terms() { 2 + Term::from(rules == RELEASING) } else { 0 };
+        let term = if robot.counts_terms() { 2 + BookingTerm::from(rules == RELEASING) } else { 0 };
         assert_eq!(see(&mut robot, 2, 500), Some(book(term, 500, 500)));
         let mut robot = told(rules);
-        assert_eq!(robot.step(1, Input::Withdraw), None);
+        assert_eq!(robot.step(1, BookingInput::Withdraw), None);
         assert!(robot.is_booked(1));
     }
 }
@@ -250,12 +253,12 @@ fn a_robot_does_not_hear_itself() {
 #[test]
 fn in_the_last_term_the_key_decides_and_an_expired_booking_gives_way() {
     let mut robot = told(HARDENED);
-    assert!(hear(&mut robot, 0, 2, book(Term::MAX, 300, 800)));
+    assert!(hear(&mut robot, 0, 2, book(BookingTerm::MAX, 300, 800)));
     assert_eq!(see(&mut robot, 1, 301), None, "nearer, but its key would not prevail");
-    assert!(!hear(&mut robot, 10, 3, book(Term::MAX, 400, 400)));
-    assert!(hear(&mut robot, 11, 3, book(Term::MAX, 400, 900)));
-    assert_eq!(see(&mut robot, 12, 399), Some(book(Term::MAX, 399, 399)));
-    assert!(!hear(&mut robot, 12, 3, book(Term::MAX, 400, 900)) && robot.goes());
+    assert!(!hear(&mut robot, 10, 3, book(BookingTerm::MAX, 400, 400)));
+    assert!(hear(&mut robot, 11, 3, book(BookingTerm::MAX, 400, 900)));
+    assert_eq!(see(&mut robot, 12, 399), Some(book(BookingTerm::MAX, 399, 399)));
+    assert!(!hear(&mut robot, 12, 3, book(BookingTerm::MAX, 400, 900)) && robot.goes());
 }
 
 #[test]
@@ -275,12 +278,13 @@ fn rules_are_written_as_a_strategy_has_them() {
 #[test]
 fn times_and_thresholds_at_their_limits_do_no_harm() {
     for rules in RULES {
-        let limits = Settings { rules, threshold: Distance::INFINITE, timeout: Tick::MAX, renewal: 0 };
+        let limits =
+            BookingSettings { rules, threshold: Distance::INFINITE, timeout: OwnTick::MAX, renewal: 0 };
         let mut robot = B3p::new(PlayerNumber::MAX, limits);
-        assert!(see(&mut robot, Tick::MAX, u32::MAX - 1).is_some());
+        assert!(see(&mut robot, OwnTick::MAX, u32::MAX - 1).is_some());
         assert!(see(&mut robot, 0, 0).is_some(), "a clock that goes back");
-        hear(&mut robot, 0, 0, book(Term::MAX, u32::MAX, u32::MAX));
-        see(&mut robot, Tick::MAX, 0);
+        hear(&mut robot, 0, 0, book(BookingTerm::MAX, u32::MAX, u32::MAX));
+        see(&mut robot, OwnTick::MAX, 0);
         assert!(robot.booking().is_some());
     }
 }

@@ -80,7 +80,7 @@ fn an_attempt_takes_the_epoch_after_the_newest_seen() {
     initiator.step(Input::TimeOut(Timer::Lock));
     let asks = initiator.step(rotation(&[1, 2]));
     assert_eq!(asks, effects([send(1, lock(5)), send(2, lock(5)), Effect::Start(Timer::Locks)]));
-    assert_eq!(initiator.phase(), Phase::WaitingForLocks { sequence: 5 });
+    assert_eq!(initiator.phase(), AttemptPhase::WaitingForLocks { sequence: 5 });
 }
 
 #[test]
@@ -116,17 +116,17 @@ fn a_refused_attempt_still_counts_as_seen() {
     assert_eq!(receiver.lock(), Some(Lock { by: 0, sequence: 1 }));
     receiver.step(Input::TimeOut(Timer::Lock));
     receiver.step(rotation(&[0, 2]));
-    assert_eq!(receiver.phase(), Phase::WaitingForLocks { sequence: 8 });
+    assert_eq!(receiver.phase(), AttemptPhase::WaitingForLocks { sequence: 8 });
 }
 
 #[test]
 fn an_initiator_refuses_its_lock_but_remembers_the_attempt() {
     let mut initiator = waiting_for_acks();
     assert!(initiator.step(receive(1, lock(5))).is_empty());
-    assert_eq!((initiator.lock(), initiator.phase()), (None, Phase::WaitingForAcks { sequence: 1 }));
+    assert_eq!((initiator.lock(), initiator.phase()), (None, AttemptPhase::WaitingForAcks { sequence: 1 }));
     initiator.step(Input::TimeOut(Timer::Acks));
     initiator.step(rotation(&[1, 2]));
-    assert_eq!(initiator.phase(), Phase::WaitingForLocks { sequence: 6 });
+    assert_eq!(initiator.phase(), AttemptPhase::WaitingForLocks { sequence: 6 });
 }
 
 #[test]
@@ -189,7 +189,7 @@ fn a_newer_configuration_ends_an_attempt() {
     let mut initiator = waiting_for_acks();
     let ends = initiator.step(Input::Heard(configuration(1, 2, ROTATED)));
     assert_eq!(ends, effects([Effect::Stop(Timer::Acks), Effect::Finished(Outcome::Overtaken)]));
-    assert_eq!(initiator.phase(), Phase::Idle);
+    assert_eq!(initiator.phase(), AttemptPhase::Idle);
 }
 
 #[test]
@@ -210,7 +210,7 @@ fn with_all_locks_the_new_roles_follow_from_the_newest_configuration() {
 fn a_late_grant_is_not_counted_but_its_configuration_is() {
     let mut initiator = robot(0);
     initiator.step(receive(1, ack_lock(9, configuration(2, 1, ROTATED))));
-    assert_eq!((initiator.role(), initiator.phase()), (2, Phase::Idle));
+    assert_eq!((initiator.role(), initiator.phase()), (2, AttemptPhase::Idle));
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn an_initiator_asks_everybody_named_for_locks() {
     let mut initiator = robot(0, OnMissingAck::RollBack);
     let asks = initiator.step(rotation());
     assert_eq!(asks, effects([send(1, lock(1)), send(2, lock(1)), Effect::Start(Timer::Locks)]));
-    assert_eq!(initiator.phase(), Phase::WaitingForLocks { sequence: 1 });
+    assert_eq!(initiator.phase(), AttemptPhase::WaitingForLocks { sequence: 1 });
     assert_eq!(initiator.awaited(), [1, 2]);
 }
 
@@ -169,7 +169,7 @@ fn with_all_acknowledgements_the_initiator_changes_its_own_role() {
     assert!(initiator.step(receive(1, ack_swap(1))).is_empty());
     let done = initiator.step(receive(2, ack_swap(1)));
     assert_eq!(done, effects([Effect::Stop(Timer::Acks), Effect::Finished(Outcome::Completed)]));
-    assert_eq!((initiator.role(), initiator.phase()), (FORWARD, Phase::Idle));
+    assert_eq!((initiator.role(), initiator.phase()), (FORWARD, AttemptPhase::Idle));
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn without_all_locks_in_time_nothing_is_sent() {
     let gives_up = initiator.step(Input::TimeOut(Timer::Locks));
     assert_eq!(gives_up, effects([Effect::Finished(Outcome::LocksMissing)]));
     initiator.step(rotation());
-    assert_eq!(initiator.phase(), Phase::WaitingForLocks { sequence: 2 });
+    assert_eq!(initiator.phase(), AttemptPhase::WaitingForLocks { sequence: 2 });
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn a_roll_back_tells_everybody_its_previous_role_once() {
     let orders = [send(1, swap(1, FLOATER)), send(2, swap(1, FORWARD))];
     let over = Effect::Finished(Outcome::AcksMissing);
     assert_eq!(rolls_back, effects(orders.into_iter().chain([over])));
-    assert_eq!((initiator.role(), initiator.phase()), (HALFBACK, Phase::Idle));
+    assert_eq!((initiator.role(), initiator.phase()), (HALFBACK, AttemptPhase::Idle));
 }
 
 #[test]
@@ -271,7 +271,7 @@ fn a_restart_ends_locks_and_attempts_and_keeps_what_memory_keeps() {
     let mut initiator = waiting_for_acks(OnMissingAck::RollBack);
     initiator.restart(true);
     initiator.step(rotation());
-    assert_eq!(initiator.phase(), Phase::WaitingForLocks { sequence: 2 });
+    assert_eq!(initiator.phase(), AttemptPhase::WaitingForLocks { sequence: 2 });
 }
 
 #[test]
