@@ -114,7 +114,7 @@ fn receive_messages(
 ) {
     for (_, _, mut tcm) in &mut robots {
         let expired = tcm.assembly.expire(clock.tick);
-        tcm.counters.expired(expired);
+        tcm.counters.expired += expired as u64;
     }
     for (to, datagram) in incoming.0.drain(..) {
         let robot = robots.iter_mut().find(|(_, id, ..)| **id == to);
@@ -122,13 +122,13 @@ fn receive_messages(
         let Some(message) = tcm.take_in(&datagram, Peer::from(*id), clock.tick) else { continue };
         let (module, data_type) = (message.source.module, message.data_type);
         match registry.get(data_type) {
-            None => tcm.counters.unknown(module, data_type),
+            None => tcm.counters.dropped(module, data_type, Dropped::UnknownType),
             Some(deliver)
                 if deliver(&mut commands, entity, message.source.peer, data_type, &message.data) =>
             {
                 tcm.counters.received(module, data_type, message.data.len());
             }
-            Some(_) => tcm.counters.not_unserialisable(module, data_type),
+            Some(_) => tcm.counters.dropped(module, data_type, Dropped::NotUnserialisable),
         }
     }
 }
@@ -151,7 +151,7 @@ fn send_messages(
         let mute = robot.is_some_and(|robot| robot.condition.mute);
         let mut budgets = budgets.as_deref_mut().filter(|_| !mute);
         for (module, data_type) in client.dropped.drain(..) {
-            tcm.counters.queue_full(module, data_type);
+            tcm.counters.dropped(module, data_type, Dropped::QueueFull);
         }
         for outgoing in client.queues.take(tcm.settings.messages_per_tick) {
             tcm.send(*id, outgoing, &directory.0, budgets.as_deref_mut(), &mut on_air);
@@ -174,7 +174,7 @@ impl Tcm {
         let destination = Address { peer: to, module };
         let message = ExternalMessage { source, destination, data_type, data };
         let Ok(pieces) = cut(&message, self.counter, self.settings.datagram) else {
-            self.counters.too_large(module, data_type);
+            self.counters.dropped(module, data_type, Dropped::TooLarge);
             return;
         };
         if let Some(budgets) = budgets
@@ -200,14 +200,14 @@ impl Tcm {
         let message = match self.assembly.accept(tick, datagram) {
             Ok(message) => message?,
             Err(_) => {
-                self.counters.malformed();
+                self.counters.malformed += 1;
                 return None;
             }
         };
         if message.destination.peer.includes(to) {
             return Some(message);
         }
-        self.counters.foreign();
+        self.counters.foreign += 1;
         None
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::comms::tcm::counters::{Dropped, TypeCount, TypeCounters};
+use crate::comms::tcm::counters::{TypeCount, TypeCounters};
 use crate::comms::tcm::queues::QueueCounters;
 use crate::comms::tcm::{DataType, Module};
 
@@ -23,9 +23,9 @@ impl SummedCounters {
     /// Adds the counters of one robot.
     pub fn add(&mut self, counters: &TypeCounters) {
         for (module, data_type, count) in counters.rows() {
-            add(self.types.entry((module, data_type)).or_default(), count);
+            *self.types.entry((module, data_type)).or_default() += count;
         }
-        add(&mut self.others, &counters.others());
+        self.others += &counters.others();
         self.foreign += counters.foreign;
         self.malformed += counters.malformed;
         self.expired += counters.expired;
@@ -52,33 +52,23 @@ impl SummedCounters {
     /// All rows together.
     pub fn total(&self) -> TypeCount {
         self.types.values().fold(self.others, |mut total, count| {
-            add(&mut total, count);
+            total += count;
             total
         })
-    }
-}
-
-fn add(to: &mut TypeCount, count: &TypeCount) {
-    to.messages_sent += count.messages_sent;
-    to.bytes_sent += count.bytes_sent;
-    to.datagrams_sent += count.datagrams_sent;
-    to.messages_received += count.messages_received;
-    to.bytes_received += count.bytes_received;
-    for reason in Dropped::ALL {
-        to.dropped[reason.index()] += count.dropped_as(reason);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::comms::tcm::counters::Dropped;
 
     #[test]
     fn robots_are_added_up_row_by_row() {
         let mut counters = TypeCounters::default();
         counters.sent(Module::BALL_BOOKING, DataType::BOOK, 12, 3);
         counters.dropped(Module::BALL_BOOKING, DataType::BOOK, Dropped::TooLarge);
-        counters.foreign();
+        counters.foreign += 1;
         let mut sums = SummedCounters::default();
         sums.name([(Module::GOALIE, DataType::GOALIE_NEWS)].into_iter());
         (0..2).for_each(|_| sums.add(&counters));

@@ -181,7 +181,7 @@ fn of_several_reasons_the_first_counts() {
         Interference { extra_loss: 1.0, jammed: true, cut_off: [home(0)].into(), ..Interference::default() };
     bench.faults.add(drop_all());
     let mut reasons = vec![bench.reason(0, 1)];
-    bench.faults.clear();
+    bench.faults = FaultRules::default();
     reasons.push(bench.reason(0, 1));
     bench.channel.set_radio(Radio { budget: None, ..radio });
     reasons.push(bench.reason(0, 1));
