@@ -21,6 +21,7 @@ impl Default for Clock {
 }
 
 impl Clock {
+    /// A clock at tick 0 with this many ticks a second.
     pub fn new(hz: f32) -> Clock {
         Clock { tick: 0, dt: 1.0 / hz }
     }

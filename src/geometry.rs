@@ -14,11 +14,14 @@ use serde::{Deserialize, Serialize};
 /// A position in metres and a heading in radians, counter-clockwise from +x.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
 pub struct Pose {
+    /// m.
     pub position: Vec2,
+    /// rad, counter-clockwise from the x axis.
     pub heading: f32,
 }
 
 impl Pose {
+    /// A pose from metres and radians.
     pub const fn new(x: f32, y: f32, heading: f32) -> Pose {
         Pose { position: Vec2::new(x, y), heading }
     }
@@ -38,6 +41,7 @@ impl Pose {
         self.position + self.forward().rotate(local)
     }
 
+    /// Whether all numbers are finite.
     pub fn is_finite(self) -> bool {
         self.position.is_finite() && self.heading.is_finite()
     }
@@ -57,11 +61,14 @@ impl UnitRotation for Vec2 {
 /// Linear velocity in m/s and angular velocity in rad/s.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 pub struct Twist {
+    /// m/s.
     pub linear: Vec2,
+    /// rad/s, counter-clockwise.
     pub angular: f32,
 }
 
 impl Twist {
+    /// Whether all numbers are finite.
     pub fn is_finite(self) -> bool {
         self.linear.is_finite() && self.angular.is_finite()
     }
@@ -71,7 +78,9 @@ impl Twist {
 /// robot's own heading.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Reflect)]
 pub struct Sighting {
+    /// m.
     pub range: f32,
+    /// rad, counter-clockwise from straight ahead.
     pub bearing: f32,
 }
 
@@ -111,11 +120,14 @@ pub fn wrap_angle(angle: f32) -> f32 {
 /// Which way a team attacks: the turn between the pitch frame and its team frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Reflect)]
 pub enum Attacking {
+    /// Towards positive x.
     East,
+    /// Towards negative x.
     West,
 }
 
 impl Attacking {
+    /// The other end.
     pub fn reversed(self) -> Attacking {
         match self {
             Attacking::East => Attacking::West,
@@ -144,11 +156,14 @@ impl Attacking {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Reflect)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
+    /// The corner with the least x and y, m.
     pub min: Vec2,
+    /// The corner with the greatest x and y, m.
     pub max: Vec2,
 }
 
 impl Zone {
+    /// Whether a point lies in it, the border included.
     pub fn contains(self, point: Vec2) -> bool {
         point.cmpge(self.min).all() && point.cmple(self.max).all()
     }
@@ -168,6 +183,7 @@ impl Zone {
         Zone { min: self.min * scale, max: self.max * scale }
     }
 
+    /// Whether all numbers are finite.
     pub fn is_finite(self) -> bool {
         self.min.is_finite() && self.max.is_finite() && self.min.cmple(self.max).all()
     }

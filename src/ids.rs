@@ -9,7 +9,9 @@ use serde::{Deserialize, Serialize};
 /// One of the two teams of a match.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, Reflect)]
 pub enum Team {
+    /// The team that is named first.
     Home,
+    /// The other team.
     Away,
 }
 
@@ -50,14 +52,18 @@ pub type PlayerNumber = u8;
 #[derive(
     Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, Reflect,
 )]
+/// One robot of a match.
 #[component(immutable)]
 #[serde(try_from = "String", into = "String")]
 pub struct RobotId {
+    /// Its team.
     pub team: Team,
+    /// Its number in the team, from 0.
     pub number: PlayerNumber,
 }
 
 impl RobotId {
+    /// The robot of this number.
     pub const fn new(team: Team, number: PlayerNumber) -> RobotId {
         RobotId { team, number }
     }

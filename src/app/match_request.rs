@@ -9,7 +9,9 @@ use crate::rng::DEFAULT_SEED;
 
 /// What a person wants to see.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum MatchRequest {
+    /// A match, as a person chose it.
     Match(Choice),
     /// A scenario with one of its seeds or with any other.
     Scenario {

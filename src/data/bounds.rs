@@ -20,6 +20,7 @@ pub struct Bound {
 const SMALLEST: f32 = 0.001;
 
 impl Bound {
+    /// A share of a whole.
     pub const SHARE: Bound = Bound::up_to(1.0, "");
     /// When something happens or how long it takes: a day.
     pub const SECONDS: Bound = Bound::up_to(86_400.0, " s");
@@ -39,17 +40,27 @@ impl Bound {
     pub const CORNER: Bound = Bound::SIZE.signed();
     /// Length or width of a pitch.
     pub const PITCH: Bound = Bound { least: 1.0, most: 200.0, unit: " m" };
+    /// A speed of a body.
     pub const SPEED: Bound = Bound::up_to(50.0, " m/s");
     /// Of one coordinate.
     pub const VELOCITY: Bound = Bound::SPEED.signed();
+    /// An acceleration of a body.
     pub const ACCELERATION: Bound = Bound::up_to(1000.0, " m/s²");
+    /// An angle without direction.
     pub const ANGLE: Bound = Bound::up_to(360.0, "°");
+    /// An angle with direction.
     pub const HEADING: Bound = Bound::ANGLE.signed();
+    /// A speed of turning.
     pub const TURN_RATE: Bound = Bound::up_to(3600.0, "°/s");
+    /// An acceleration of turning.
     pub const TURN_ACCELERATION: Bound = Bound::up_to(100_000.0, "°/s²");
+    /// A mass.
     pub const MASS: Bound = Bound::up_to(1000.0, " kg");
+    /// A force.
     pub const FORCE: Bound = Bound::up_to(10_000.0, " N");
+    /// The stiffness of a spring.
     pub const STIFFNESS: Bound = Bound::up_to(100_000.0, " N/m");
+    /// The damping of a spring.
     pub const DAMPING: Bound = Bound::up_to(10_000.0, " N·s/m");
     /// Per second.
     pub const GAIN: Bound = Bound::up_to(1000.0, "/s");
@@ -57,7 +68,9 @@ impl Bound {
     pub const COEFFICIENT: Bound = Bound::up_to(10.0, "");
     /// What something else is multiplied with, or compared with without a unit.
     pub const FACTOR: Bound = Bound::up_to(1000.0, "");
+    /// A weight of a schema.
     pub const WEIGHT: Bound = Bound::FACTOR.signed();
+    /// A number of bytes.
     pub const BYTES: Bound = Bound::up_to(1e9, " bytes");
     /// On a screen.
     pub const POINTS: Bound = Bound::up_to(100_000.0, " points");
@@ -76,6 +89,7 @@ impl Bound {
         Bound { least: -self.most, ..self }
     }
 
+    /// Whether a value is within the bound.
     pub fn holds(self, value: f32) -> bool {
         (self.least..=self.most).contains(&value)
     }

@@ -43,7 +43,9 @@ pub enum TopLevel<'a> {
 /// A file and its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
+    /// Where the file is.
     pub path: PathBuf,
+    /// What is in it.
     pub text: String,
 }
 

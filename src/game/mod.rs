@@ -126,22 +126,27 @@ impl Match {
         self.app.world().resource::<MatchState>().phase == Phase::Finished
     }
 
+    /// The world of the match.
     pub fn world(&self) -> &World {
         self.app.world()
     }
 
+    /// The world of the match, to be changed.
     pub fn world_mut(&mut self) -> &mut World {
         self.app.world_mut()
     }
 
+    /// Where the match stands.
     pub fn state(&self) -> &MatchState {
         self.app.world().resource::<MatchState>()
     }
 
+    /// What was recorded so far.
     pub fn record(&self) -> &Record {
         self.app.world().resource::<Record>()
     }
 
+    /// The match's clock.
     pub fn clock(&self) -> Clock {
         *self.app.world().resource::<Clock>()
     }

@@ -22,15 +22,23 @@ use crate::world::referee::RuleBook;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MatchFile {
+    /// Its name for people.
     pub name: String,
+    /// The pitch's file.
     pub pitch: String,
+    /// The ball.
     pub ball: BallKind,
+    /// The rules.
     pub rules: RuleBook,
+    /// The radio's file.
     #[serde(default = "default_radio")]
     pub radio: String,
+    /// Settings of the team communication module.
     #[serde(default)]
     pub tcm: TcmSettings,
+    /// The home team.
     pub home: TeamFile,
+    /// The away team.
     pub away: TeamFile,
 }
 
@@ -43,11 +51,15 @@ fn default_radio() -> String {
 pub struct Choice {
     /// The match file; `friendly` if not given.
     pub file: Option<String>,
+    /// The home team's strategy.
     pub home: Option<String>,
+    /// The away team's strategy.
     pub away: Option<String>,
+    /// The radio.
     pub radio: Option<String>,
     /// Minutes of a half.
     pub half_minutes: Option<f32>,
+    /// The seed of all dice.
     pub seed: u64,
     /// The robot that a person drives.
     pub pilot: Option<RobotId>,
@@ -60,11 +72,17 @@ pub struct Choice {
 /// A match that can be played: every file is read and sound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatchPlan {
+    /// Its name for people.
     pub name: String,
+    /// The pitch.
     pub pitch: Pitch,
+    /// The ball.
     pub ball: BallKind,
+    /// The rules.
     pub rules: RuleBook,
+    /// The radio.
     pub radio: Radio,
+    /// Settings of the team communication module.
     pub tcm: TcmSettings,
     /// Where the robots and computers are that the TCM speaks to.
     pub addresses: Option<Directory>,
@@ -72,7 +90,9 @@ pub struct MatchPlan {
     pub wires: WirePlan,
     /// Home first.
     pub teams: [TeamPlan; 2],
+    /// The seed of all dice.
     pub seed: u64,
+    /// The robot that a person drives.
     pub pilot: Option<RobotId>,
     /// Where the match begins, if not at a kick-off; then only the robots of the situation take part.
     pub situation: Option<Situation>,
@@ -179,6 +199,7 @@ impl MatchPlan {
         Ok(plan)
     }
 
+    /// One side of the match.
     pub fn team(&self, team: Team) -> &TeamPlan {
         &self.teams[team.index()]
     }

@@ -17,8 +17,11 @@ use crate::strategy::{Strategy, StrategyReading};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TeamFile {
+    /// The strategy's file.
     pub strategy: String,
+    /// The file of the robots' kind.
     pub robot: String,
+    /// The file of the robots' senses.
     pub sensing: String,
     /// The league's number of the team, 0 to 254. Without numbers the first referee box that is heard decides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -49,12 +52,15 @@ impl TeamFile {
 pub struct TeamPlan {
     /// The names of its files.
     pub names: TeamFile,
+    /// What the team does.
     pub strategy: Arc<Strategy>,
     /// The files that the strategy rests on, its own first.
     pub strategy_files: Vec<PathBuf>,
     /// The roles by number that a scenario gives to players at kick-off in place of the strategy's.
     pub roles: Vec<(u8, String)>,
+    /// What its robots are built as.
     pub kind: Arc<RobotKind>,
+    /// How well its robots sense.
     pub sensing: Arc<Sensing>,
 }
 

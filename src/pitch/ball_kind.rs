@@ -19,6 +19,7 @@ pub struct BallKind {
     pub sliding: f32,
     /// Moment of inertia over mass and squared radius: 2/3 for a hollow ball, 2/5 for a solid one.
     pub inertia: f32,
+    /// The coefficient of friction with bodies.
     pub friction: f32,
     /// Share of the normal speed kept at a bounce; the higher of the two bodies' values counts.
     pub restitution: f32,

@@ -16,16 +16,21 @@ use crate::geometry::Zone;
 #[derive(Resource, Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Pitch {
+    /// Its name for people.
     pub name: String,
     /// Inner length between the goal lines, along x.
     pub length: f32,
     /// Inner width between the side walls, along y.
     pub width: f32,
+    /// Both goals.
     pub goal: Goal,
+    /// Both penalty areas.
     pub penalty_area: PenaltyArea,
+    /// m.
     pub centre_circle_radius: f32,
     /// Where the referee puts a ball that makes no progress, in reading order from west to east.
     pub penalty_spots: Vec<Vec2>,
+    /// The walls.
     pub walls: Walls,
 }
 
@@ -33,7 +38,9 @@ pub struct Pitch {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Goal {
+    /// Between the posts, m.
     pub width: f32,
+    /// Behind the goal line, m.
     pub depth: f32,
 }
 
@@ -54,7 +61,9 @@ pub struct PenaltyArea {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Walls {
+    /// m.
     pub thickness: f32,
+    /// The coefficient of friction.
     pub friction: f32,
     /// Share of the normal speed that is kept, 0 to 1.
     pub restitution: f32,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Where a robot wants to go. Headings are in the odometry's frame, so that the drive can follow them between decisions.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum SteeringIntent {
     /// Stand still.
     #[default]

@@ -14,17 +14,24 @@ use crate::data::{Bound, Fault, count_fault, first_fault, points_fault};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotKind {
+    /// Its name for people.
     pub name: String,
     /// How often the robot's control system decides, per second.
     pub control_hz: f32,
+    /// The drive unit, or the whole robot on legs.
     pub body: Body,
+    /// How it moves.
     pub drive: Drive,
+    /// What it pulls.
     #[serde(default)]
     pub trailer: Option<TrailerKind>,
+    /// The jaws in front.
     #[serde(default)]
     pub scoop: Option<Scoop>,
+    /// How far and fast the head turns.
     #[serde(default)]
     pub neck: Option<Neck>,
+    /// How the ball is held under the head.
     #[serde(default)]
     pub chin: Option<Chin>,
     /// By name.
@@ -38,9 +45,13 @@ pub struct RobotKind {
 pub struct Body {
     /// Fore and aft.
     pub length: f32,
+    /// Across, m.
     pub width: f32,
+    /// kg.
     pub mass: f32,
+    /// The coefficient of friction.
     pub friction: f32,
+    /// The coefficient of restitution.
     pub restitution: f32,
 }
 
@@ -48,7 +59,9 @@ pub struct Body {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Drive {
+    /// On two wheels.
     Differential(DifferentialDrive),
+    /// On legs.
     Walker(Walker),
 }
 
@@ -80,13 +93,17 @@ pub struct DifferentialDrive {
 pub struct TrailerKind {
     /// Corners of its convex outline, seen from the hitch, x ahead.
     pub outline: Vec<Vec2>,
+    /// kg.
     pub mass: f32,
     /// From the hitch back to the axle.
     pub axle: f32,
+    /// The coefficient of friction of its wheels on the carpet.
     pub grip: f32,
     /// Rolling resistance as a share of the weight.
     pub rolling: f32,
+    /// The coefficient of friction.
     pub friction: f32,
+    /// The coefficient of restitution.
     pub restitution: f32,
 }
 

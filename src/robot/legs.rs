@@ -24,6 +24,7 @@ pub struct Walker {
     pub push: f32,
     /// Turn rate per heading error, 1/s.
     pub turn_gain: f32,
+    /// How its gait misses the command.
     pub noise: GaitNoise,
 }
 

@@ -17,15 +17,18 @@ pub enum RobotState {
     Ready,
     /// It stands.
     Set,
+    /// It plays.
     Playing,
     /// It has been taken off and stands outside, or stands where it is until its penalty is over.
     Penalised,
+    /// The match is over.
     Finished,
 }
 
 /// What a robot was told last; written by the Referee stage.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Orders {
+    /// What the robot is to do.
     pub state: RobotState,
     /// Where it should stand at the kick-off, in its team frame; nothing if people put it there.
     pub place: Option<Pose>,

@@ -10,16 +10,22 @@ use crate::data::{Bound, Fault, first_fault};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sensing {
+    /// Its name for people.
     pub name: String,
+    /// What the robot sees.
     pub eyes: Eyes,
+    /// How long beliefs last.
     pub memory: MemorySpans,
 }
 
 /// Perfect sensing is a switch: everything, at once, without noise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Eyes {
+    /// The truth, at every tick.
     Perfect,
+    /// A camera and what goes with it.
     Real { camera: Camera, localisation: Localisation, odometry: OdometryNoise },
 }
 
@@ -27,7 +33,9 @@ pub enum Eyes {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
+    /// Degrees, from edge to edge.
     pub field_of_view: f32,
+    /// Frames a second.
     pub frame_hz: f32,
     /// From the shutter to the percept.
     pub latency: f32,
@@ -39,6 +47,7 @@ pub struct Camera {
     pub range_noise: f32,
     /// Added to the above, m.
     pub range_floor: f32,
+    /// Standard deviation, degrees.
     pub bearing_noise: f32,
     /// Chance that a frame shows what is in full view and near; falls to 0.3 of it at the end of the range.
     pub detection: f32,
@@ -54,6 +63,7 @@ pub struct Camera {
 pub struct Localisation {
     /// Of each coordinate.
     pub position: f32,
+    /// Standard deviation, degrees.
     pub heading: f32,
     /// How long an error lasts: the time in which it falls to a third, left alone.
     pub drift_time: f32,
@@ -75,7 +85,9 @@ pub struct OdometryNoise {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemorySpans {
+    /// s.
     pub ball: f32,
+    /// s.
     pub robots: f32,
 }
 

@@ -14,6 +14,7 @@ use crate::strategy::role::RoleRef;
 /// One place on the field, or nowhere while it is unknown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Point {
     /// A point from `percepts`.
     Named(String),
@@ -64,6 +65,7 @@ pub enum Point {
 /// Any number of places.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Points {
     /// A set from `point_sets`.
     Named(String),
@@ -120,6 +122,7 @@ pub enum ZoneName {
 /// A statement that is true or false.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Feature {
     /// A statement from `features`.
     Is(String),
@@ -203,6 +206,7 @@ pub enum Feature {
 /// A motor schema: what it turns into a direction and a speed between 0 and 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Schema {
     /// Linear attraction: full speed beyond `controlled_zone`, none within `dead_zone`.
     GoTo {
@@ -263,10 +267,15 @@ pub enum Schema {
 /// What a schema does to a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SchemaKind {
+    /// It draws the robot to a place.
     Attraction,
+    /// It keeps the robot away from things.
     Repulsion,
+    /// It leads the robot around things.
     Detour,
+    /// It works at the ball.
     Handling,
+    /// It heeds nothing around the robot.
     Unguided,
 }
 

@@ -13,7 +13,9 @@ pub struct Role(pub usize);
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
 pub struct RoleRef {
+    /// The role's name.
     pub name: String,
+    /// The role's index, once the strategy is loaded.
     pub index: RoleIndex,
 }
 

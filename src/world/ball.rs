@@ -32,6 +32,7 @@ pub struct Rolling(pub Vec2);
 pub struct BallDice(Dice);
 
 impl BallDice {
+    /// The dice of a match with this seed.
     pub fn new(seed: Seed) -> BallDice {
         BallDice(Dice::new(seed, "ball", None))
     }

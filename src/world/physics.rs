@@ -74,14 +74,17 @@ pub struct Bodies<'w, 's> {
 }
 
 impl Bodies<'_, '_> {
+    /// A body.
     pub fn get(&self, handle: &RapierRigidBodyHandle) -> Option<&Body> {
         self.set.bodies.get(handle.0)
     }
 
+    /// A body, to be changed.
     pub fn get_mut(&mut self, handle: &RapierRigidBodyHandle) -> Option<&mut Body> {
         self.set.bodies.get_mut(handle.0)
     }
 
+    /// Where a body is.
     pub fn pose(&self, handle: &RapierRigidBodyHandle) -> Option<Pose> {
         let body = self.get(handle)?;
         Some(Pose { position: body.translation(), heading: body.rotation().angle() })

@@ -10,9 +10,13 @@ use crate::data::{Bound, Fault, first_fault};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Radio {
+    /// Its name for people.
     pub name: String,
+    /// What it is like, for people.
     pub description: String,
+    /// The time from sending to arrival.
     pub latency: Latency,
+    /// How messages are lost by chance.
     pub loss: LossModel,
     /// Share of the delivered messages that arrive twice; the copy has a latency of its own.
     #[serde(default)]
@@ -32,6 +36,7 @@ pub struct Radio {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Latency {
+    /// What every message takes, s.
     pub fixed: f32,
     /// Mean of what is added to `fixed`.
     pub jitter: f32,
@@ -41,6 +46,7 @@ pub struct Latency {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum LossModel {
+    /// No message is lost.
     None,
     /// Each message with this chance.
     Independent(f32),
@@ -59,8 +65,11 @@ pub enum LossModel {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LateTail {
+    /// The share of late messages.
     pub share: f32,
+    /// The least extra time, s.
     pub min: f32,
+    /// The greatest extra time, s.
     pub max: f32,
 }
 
@@ -68,9 +77,11 @@ pub struct LateTail {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
+    /// What flows into the bucket.
     pub bytes_per_second: f32,
     /// Bytes that a full bucket holds, as at the start. A longer message never gets through.
     pub burst: f32,
+    /// Which messages draw on the same bucket.
     pub shared_by: SharedBy,
 }
 

@@ -53,6 +53,7 @@ impl MessageBudgets {
         self.size.saturating_sub(self.teams[team.index()].counted)
     }
 
+    /// What a team has spent so far.
     pub fn spent(&self, team: Team) -> Spent {
         self.teams[team.index()]
     }

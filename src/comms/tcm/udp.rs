@@ -19,6 +19,7 @@ pub struct UdpConn {
 
 /// What the operating system refused, and for which address.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum UdpError {
     /// The socket cannot be opened.
     #[error("cannot listen at {address}: {}", why(source))]

@@ -37,6 +37,7 @@ pub(super) struct Announcer {
 }
 
 impl Announcer {
+    /// Opens the socket.
     pub fn open(to: SocketAddr, version: Version, team_numbers: [u8; 2]) -> Result<Announcer, UdpError> {
         Ok(Announcer {
             conn: UdpConn::speaker(to)?,
@@ -76,6 +77,7 @@ impl Announcer {
         self.first_half && state.half > 1 && !world.contains_resource::<BoxNews>()
     }
 
+    /// Sends what is due.
     pub fn announce(&mut self, world: &mut World) {
         let is_half_time = self.is_half_time(world);
         let followed = world.get_resource::<BoxNews>().and_then(|news| news.team_numbers);

@@ -36,6 +36,7 @@ pub struct UdpCarrier {
     conns: BTreeMap<RobotId, UdpConn>,
     /// Datagrams under way between two robots of this process, the oldest first.
     under_way: VecDeque<UnderWay>,
+    /// What it has carried so far.
     pub figures: CarrierFigures,
 }
 

@@ -29,7 +29,9 @@ pub enum Greeting {
 /// A robot in another process that does not take part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Awaited {
+    /// The robot that has not answered.
     pub robot: RobotId,
+    /// Where it is expected.
     pub address: SocketAddr,
     /// If somebody is there who cannot take part: a line that says who and why.
     pub refusal: Option<String>,

@@ -17,17 +17,20 @@ const PROTOCOL: u16 = 2;
 /// What one side plays. Its layout stays the same in all versions, so that they can tell each other apart.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Introduction {
+    /// The version of the messages between a match and its robots.
     pub protocol: u16,
     /// Of the program.
     pub version: String,
     /// A number that this match has and the one before had not; a robot says that of the match that it answers.
     pub session: u32,
+    /// What must be equal on both sides.
     pub particulars: Vec<Particular>,
 }
 
 /// One thing that has to be equal on both sides.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Particular {
+    /// What it is about, for people.
     pub what: String,
     /// As people call it; empty if it has no name.
     pub name: String,

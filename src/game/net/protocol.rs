@@ -25,6 +25,7 @@ pub struct Sensors {
     pub tick: u64,
     /// The newest camera frame.
     pub frame: Option<Frame>,
+    /// Where the robot is by its own wheels or steps since the match began.
     pub odometry: Pose,
     /// m/s
     pub speed: f32,
@@ -34,7 +35,9 @@ pub struct Sensors {
     pub stalled_for: f32,
     /// rad
     pub pan: f32,
+    /// Whether the ball is under its chin.
     pub holds_ball: bool,
+    /// What the referee orders.
     pub orders: Orders,
 }
 
@@ -45,8 +48,11 @@ pub struct Command {
     pub session: u32,
     /// The tick of the sensors that it answers.
     pub tick: u64,
+    /// Where to steer.
     pub steering: SteeringIntent,
+    /// What to kick.
     pub kick: KickIntent,
+    /// Where to look.
     pub head: HeadIntent,
     /// Index into the strategy's roles.
     pub role: u8,

@@ -34,6 +34,7 @@ pub(super) const DATAGRAMS_A_TICK: usize = 128;
 /// Counts of the packets to and from one remote robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RemoteFigures {
+    /// The robot.
     pub robot: RobotId,
     /// Ticks in which it was told what it senses.
     pub told: u64,
@@ -110,6 +111,7 @@ pub(super) fn wake(world: &mut World, robot: RobotId) {
 }
 
 impl RemoteRobots {
+    /// Opens the sockets.
     pub fn open(
         directory: &Directory,
         robots: &[RobotId],
@@ -146,6 +148,7 @@ impl RemoteRobots {
         })
     }
 
+    /// The counts of each robot.
     pub fn figures(&self) -> Vec<RemoteFigures> {
         self.robots.values().map(|remote| remote.figures).collect()
     }

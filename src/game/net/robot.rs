@@ -49,10 +49,13 @@ pub struct RobotProcess {
 /// Counts of a robot's datagrams, for its report at the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RobotReport {
+    /// The robot.
     pub robot: RobotId,
+    /// Why it ended.
     pub ending: RobotEnd,
     /// Ticks in which it answered its match.
     pub answered: u64,
+    /// Counts of its team's datagrams.
     #[serde(flatten)]
     pub datagrams: CarrierFigures,
 }

@@ -20,6 +20,7 @@ pub struct TimedEvent {
 /// An intervention. Points and velocities are in the pitch frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Event {
     /// The robot stops dead: it neither moves nor thinks nor talks.
     Crash(RobotId),

@@ -33,7 +33,9 @@ pub struct Report {
 pub struct Run {
     /// Where the ball started, in the pitch frame.
     pub place: Vec2,
+    /// The seed.
     pub seed: u64,
+    /// How it ended.
     pub verdict: Verdict,
     /// Wall time.
     pub took: Duration,

@@ -37,6 +37,7 @@ pub(super) fn plugin(app: &mut App) {
 pub struct Contributions {
     /// In the order of the assemblage's terms, unweighted.
     pub vectors: Vec<Vec2>,
+    /// The combination of all, in the team frame.
     pub sum: Vec2,
 }
 
@@ -45,6 +46,7 @@ pub struct Contributions {
 pub struct MotorDice(Dice);
 
 impl MotorDice {
+    /// The dice of a robot.
     pub fn new(seed: Seed, robot: RobotId) -> MotorDice {
         MotorDice(Dice::new(seed, "motor", Some(robot)))
     }

@@ -75,6 +75,7 @@ macro_rules! cells {
     ($($method:ident: $kind:ident $after_gap:ident),*) => {
         impl Memory {
             $(
+                /// The memory of the operator in a slot, empty if it is of another kind or stale.
                 pub fn $method(&mut self, slot: usize) -> &mut $kind {
                     let OperatorState { asked, cell } = &mut self.cells[slot];
                     let gap = self.decision - std::mem::replace(asked, self.decision) > 1;

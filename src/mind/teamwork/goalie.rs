@@ -41,6 +41,7 @@ fn side(own: Vec2) -> GoalSide {
 /// What a robot knows of its goalie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GoalieWhereabouts {
+    /// Whether it is believed to be outside its area.
     pub is_out: bool,
     /// The side by which it crossed the border last.
     pub side: Option<GoalSide>,

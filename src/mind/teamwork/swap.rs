@@ -26,6 +26,7 @@ use crate::strategy::{Role, Strategies, Strategy};
 /// A robot's part in role swaps.
 #[derive(Component, Clone, Debug)]
 pub struct Swapping {
+    /// The protocol's state machine.
     pub machine: RoleSwap,
     /// When the timers run out, in ticks.
     deadlines: [Option<u64>; 3],

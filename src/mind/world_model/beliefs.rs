@@ -19,7 +19,9 @@ use crate::robot::{Eyes, Frame, MemorySpans, range_deviation, should_be_seen};
 /// What a robot believes, in its team frame.
 #[derive(Component, Clone, Debug, Default)]
 pub struct WorldModel {
+    /// Where the robot believes it is itself, in the team frame.
     pub pose: Pose,
+    /// What it believes of the ball, if anything.
     pub ball: Option<BallBelief>,
     /// The other robots, its own team's and the opponents', as far as it knows of them.
     pub robots: Vec<RobotBelief>,
@@ -48,6 +50,7 @@ pub struct BallBelief {
 /// A team mate that has told where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MateBelief {
+    /// The team mate's number.
     pub number: PlayerNumber,
     /// m, where it believed itself to be.
     pub position: Vec2,
@@ -62,6 +65,7 @@ pub struct MateBelief {
 /// Another robot that a robot believes in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RobotBelief {
+    /// The team that its marker shows.
     pub team: Team,
     /// m
     pub position: Vec2,
@@ -97,6 +101,7 @@ impl WorldModel {
         self.is_localised
     }
 
+    /// What it believes of a team mate.
     pub fn mate(&self, number: PlayerNumber) -> Option<&MateBelief> {
         self.mates.iter().find(|mate| mate.number == number)
     }

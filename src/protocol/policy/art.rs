@@ -22,6 +22,7 @@ use crate::protocol::role_swap::Reassignment;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Art {
+    /// Where the roles are best played.
     pub places: Places,
     /// Distance at which a utility is a half, m.
     pub half: f32,

@@ -17,6 +17,7 @@ use crate::protocol::role_swap::Reassignment;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ItalianGolem {
+    /// Where the roles are best played.
     pub places: Places,
     /// Distance at which a value is a half, m.
     pub half: f32,

@@ -40,12 +40,19 @@ pub use rmit::Rmit;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Policy {
+    /// The paper's rule: the halfback has lost the ball up the field.
     CaseBased(CaseBased),
+    /// The paper's refinement: the closest to the ball becomes the forward.
     ClosestBecomesForward(ClosestBecomesForward),
+    /// As CS Freiburg did.
     CsFreiburg(CsFreiburg),
+    /// As the Azzurra Robot Team did.
     Art(Art),
+    /// As RMIT United did.
     Rmit(Rmit),
+    /// As Italian Golem did.
     ItalianGolem(ItalianGolem),
+    /// The assignment with the least cost in all.
     Optimal(Optimal),
 }
 

@@ -13,9 +13,11 @@ use super::places::{Places, ball};
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
+/// The assignment with the least cost in all (Kuhn-Munkres).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Optimal {
+    /// Where the roles are best played.
     pub places: Places,
     /// Metres that a swap must save in all. Doubled roles are put right whatever it costs.
     pub min_gain: f32,

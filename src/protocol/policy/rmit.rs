@@ -13,6 +13,7 @@ use super::places::ball;
 use crate::data::{Bound, Fault, first_fault};
 use crate::protocol::role_swap::Reassignment;
 
+/// Roles by position and orientation, again and again, as RMIT United did.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rmit {

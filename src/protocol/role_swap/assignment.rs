@@ -16,6 +16,7 @@ pub type Sequence = u32;
 pub struct Assignment(SmallVec<[RoleIndex; 8]>);
 
 impl Assignment {
+    /// The roles of the players, by number.
     pub fn new(roles: impl IntoIterator<Item = RoleIndex>) -> Assignment {
         Assignment(roles.into_iter().collect())
     }
@@ -25,6 +26,7 @@ impl Assignment {
         self.0.get(usize::from(robot)).copied()
     }
 
+    /// The roles by number.
     pub fn roles(&self) -> &[RoleIndex] {
         &self.0
     }
@@ -51,8 +53,11 @@ impl Assignment {
 /// which of two configurations holds.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Configuration {
+    /// Greater epochs replace smaller ones.
     pub epoch: Sequence,
+    /// The robot that made it; the smaller number wins in one epoch.
     pub initiator: PlayerNumber,
+    /// The role of each player.
     pub assignment: Assignment,
 }
 

@@ -6,6 +6,7 @@ use crate::robot::Chin;
 
 /// What the chin is doing, in ticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Grip {
     /// The head is up.
     #[default]

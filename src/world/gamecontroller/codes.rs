@@ -76,7 +76,11 @@ macro_rules! coded {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum $name {
-            $($(#[$meaning])* $variant,)+
+            $(
+                $(#[$meaning])*
+                #[doc = concat!("\n\nVersions 18, 19, 20: ", stringify!($v18), ", ", stringify!($v19), ", ", stringify!($v20), ".")]
+                $variant,
+            )+
             /// A number of unknown meaning.
             Other(u8),
         }

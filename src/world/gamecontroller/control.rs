@@ -128,6 +128,7 @@ pub struct PlayerInfo {
 
 /// Why bytes are not a control packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum PacketError {
     /// It does not begin as such packets do.
     #[error("not a control packet: it does not begin with \"RGme\" and a version")]

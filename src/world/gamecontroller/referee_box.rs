@@ -20,11 +20,15 @@ const HALF_CIRCLE: u8 = 128;
 
 /// Why a packet is not followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Ignored {
+    /// It does not begin as control packets do.
     #[error("{}", PacketError::NotOurs)]
     NotOurs,
+    /// Its version is unknown.
     #[error("{}", PacketError::Version(*.0))]
     Version(u8),
+    /// It has another length than its version has.
     #[error("{}", PacketError::Length { got: *.got, expected: *.expected })]
     Length { got: usize, expected: usize },
     /// The teams that it is about.
@@ -33,6 +37,7 @@ pub enum Ignored {
     /// The box that is followed instead.
     #[error("a control packet of another box than the one at {0}")]
     Sender(SocketAddr),
+    /// It is older than the one before.
     #[error("a control packet that was overtaken by a later one")]
     Stale,
 }
@@ -44,11 +49,17 @@ pub struct Heard {
     pub news: u64,
     /// The newest packet once more.
     pub repeated: u64,
+    /// Packets that do not begin as control packets do.
     pub not_ours: u64,
+    /// Packets of an unknown version.
     pub version: u64,
+    /// Packets of another length than their version has.
     pub length: u64,
+    /// Packets of other teams.
     pub teams: u64,
+    /// Packets of other boxes.
     pub sender: u64,
+    /// Packets that are older than the one before.
     pub stale: u64,
 }
 

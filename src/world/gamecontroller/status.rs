@@ -25,6 +25,7 @@ const NEVER: f32 = -1.0;
 pub struct StatusPacket {
     /// The number on the shirt, from 1.
     pub player_number: u8,
+    /// The league's number of the team.
     pub team_number: u8,
     /// Lies on the ground and cannot play. Any byte but 0 is read so.
     pub fallen: bool,
@@ -51,11 +52,15 @@ pub struct SeenBall {
 
 /// Why bytes are not a status packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum StatusError {
+    /// It does not begin as status packets do.
     #[error("not a status packet: it does not begin with \"RGrt\" and a version")]
     NotOurs,
+    /// Its version is unknown.
     #[error("a status packet of version {0}, where 4 is understood")]
     Version(u8),
+    /// It has another length than status packets have.
     #[error("a status packet of {got} bytes, where 32 are needed")]
     Length { got: usize },
 }

@@ -13,6 +13,7 @@ use crate::world::referee::phase::Phase;
 
 /// Why the referee puts the ball somewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum PlacementReason {
     /// For a kick-off.
     KickOff,
@@ -56,6 +57,7 @@ pub enum NoGoalReason {
 
 /// One decision, in the order in which the referee makes them. Places are in the pitch frame, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Decision {
     /// A goal and the score that it makes, by [`Team::index`].
     Goal { by: Team, score: [u32; 2] },

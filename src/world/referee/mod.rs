@@ -42,6 +42,7 @@ pub(super) fn plugin(app: &mut App) {
 /// The last decisions, oldest first, with their ticks.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Whistles {
+    /// The newest decisions with their ticks.
     pub heard: VecDeque<(u64, Decision)>,
 }
 

@@ -47,6 +47,7 @@ pub struct Eyesight {
 }
 
 impl Eyesight {
+    /// The camera of a robot that has seen nothing.
     pub fn new(sensing: &Sensing, seed: Seed, robot: RobotId) -> Eyesight {
         let mut localisation_dice = Dice::new(seed, "localisation", Some(robot));
         let error = match &sensing.eyes {

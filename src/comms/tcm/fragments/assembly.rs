@@ -50,8 +50,11 @@ pub struct AssemblyCounters {
 /// A message of which fragments are missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unfinished {
+    /// The sender.
     pub source: Address,
+    /// The sender's counter of this message.
     pub counter: u32,
+    /// How the data are to be read.
     pub data_type: DataType,
     /// Fragments that have arrived.
     pub have: u16,
@@ -65,9 +68,12 @@ pub struct Unfinished {
 
 /// Why a datagram was not taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Refused {
+    /// The datagram is not well formed.
     #[error(transparent)]
     Malformed(#[from] Malformed),
+    /// The message is longer than is accepted.
     #[error("a message of {bytes} bytes, but {most} is the most")]
     TooLarge { bytes: usize, most: usize },
     /// Counted like those too large.
@@ -114,6 +120,7 @@ impl AssemblyCounters {
 }
 
 impl Assembly {
+    /// An assembly without messages.
     pub fn new(limits: Limits) -> Assembly {
         Assembly {
             limits,
@@ -125,6 +132,7 @@ impl Assembly {
         }
     }
 
+    /// What it accepts.
     pub fn limits(&self) -> Limits {
         self.limits
     }

@@ -22,8 +22,11 @@ pub const VERSION: u8 = 2;
 /// What a datagram tells about its message and about its own piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Header {
+    /// The sender.
     pub source: Address,
+    /// The receiver, perhaps a group.
     pub destination: Address,
+    /// How the data are to be read.
     pub data_type: DataType,
     /// Tells the message from others of the same source. May wrap around.
     pub counter: u32,
@@ -38,20 +41,28 @@ pub struct Header {
 /// Why bytes are not a datagram of the TCM. If there are several reasons, the first of these counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, thiserror::Error)]
 pub enum Malformed {
+    /// It is shorter than a header.
     #[error("shorter than a header")]
     TooShort,
+    /// It does not begin with the magic bytes.
     #[error("not of the TCM")]
     Magic,
+    /// Its version is unknown.
     #[error("another version")]
     Version,
+    /// Its source is no robot or computer.
     #[error("an unknown kind of source, or a group")]
     Source,
+    /// Its destination is nobody.
     #[error("an unknown kind of destination")]
     Destination,
+    /// Its index is not below its count.
     #[error("no such fragment")]
     Index,
+    /// Its piece has another length than it says.
     #[error("the piece's length is not that of the rest")]
     PieceLength,
+    /// Its total, index, count and piece length contradict each other.
     #[error("the piece does not fit the message's length")]
     Total,
 }

@@ -19,6 +19,7 @@ pub const USUAL_DATAGRAM: usize = 1_400;
 
 /// Why a message cannot be sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum CannotCut {
     /// Its data, or for the smallest datagrams even a header, do not fit into as many datagrams as a message may have.
     #[error("a message of {bytes} bytes is too large for datagrams of {datagram} bytes")]

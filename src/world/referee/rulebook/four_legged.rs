@@ -30,6 +30,7 @@ pub enum DefenderRule {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BallHolding {
+    /// How long a field player may hold the ball.
     pub field_seconds: f32,
     /// Metres that the ball may be carried.
     pub field_distance: f32,
@@ -47,6 +48,7 @@ impl Default for BallHolding {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pushing {
+    /// How long a robot may push, s.
     pub seconds: f32,
     /// Metres from the ball within which the robot of a team that is nearest to it may push.
     pub exempt_radius: f32,
@@ -100,7 +102,9 @@ pub enum Stuck {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LocalGlobal {
+    /// After this time in a small circle the ball is stuck.
     pub local_seconds: f32,
+    /// After this time without a touch the ball is stuck.
     pub global_seconds: f32,
 }
 

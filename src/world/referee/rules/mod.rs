@@ -44,7 +44,9 @@ pub type RuleJudge = fn(&Laws, &Observation, f64, &mut MatchState, &mut Vec<Deci
 
 /// One rule of play.
 pub struct Rule {
+    /// Its name for people.
     pub name: &'static str,
+    /// The rule itself.
     pub judge: RuleJudge,
 }
 
