@@ -16,7 +16,7 @@ pub struct Seed(pub u64);
 
 /// The seed of a match that nobody has chosen one for.
 pub const DEFAULT_SEED: u64 = 1;
-/// The largest seed: that and all below it survive in whatever reads JSON, which may keep numbers as doubles.
+/// The largest seed. Every reader of JSON keeps it and all below it exactly, also one that keeps numbers as doubles.
 pub const LARGEST_SEED: u64 = (1 << 53) - 1;
 
 /// A stream of random numbers: PCG (MCG 128/64), named by its purpose and its robot.

@@ -12,7 +12,7 @@ const LOGGED: &str = "info,bevy_rapier2d=error";
 pub fn log_to_stderr() {
     let subscriber = fmt().with_env_filter(LOGGED).with_target(false).without_time();
     let subscriber = subscriber.with_ansi(stderr_takes_colours()).log_internal_errors(false);
-    // Whoever has set another log before keeps it.
+    // A log that was set before stays.
     let _ = subscriber.with_writer(io::stderr).try_init();
 }
 

@@ -36,6 +36,7 @@ pub enum Mechanism {
 }
 
 impl Mechanism {
+    /// Every mechanism.
     pub const ALL: [Mechanism; 11] = [
         Mechanism::Messages,
         Mechanism::TeammateAvoidance,
@@ -66,10 +67,12 @@ impl Default for Mechanisms {
 }
 
 impl Mechanisms {
+    /// Whether one is on.
     pub fn has(self, mechanism: Mechanism) -> bool {
         self.0 & mechanism.bit() != 0
     }
 
+    /// The same with one switched off.
     pub fn without(self, mechanism: Mechanism) -> Mechanisms {
         Mechanisms(self.0 & !mechanism.bit())
     }
@@ -99,13 +102,17 @@ pub enum TeammatesBy {
 pub struct TeamworkFile {
     /// Those that are on; the [default](Mechanisms::default), if left out.
     pub mechanisms: Option<Vec<Mechanism>>,
+    /// How a robot knows its team mates.
     pub teammates_by: TeammatesBy,
     /// Roles by rank, the highest first; those that are missing rank lowest, all alike.
     pub hierarchy: Vec<String>,
     /// The role that sends goalie messages.
     pub goalie: Option<String>,
+    /// When robots talk.
     pub talk: MessageTiming,
+    /// How roles are swapped.
     pub role_swap: Option<RoleSwapFile>,
+    /// How the ball is booked.
     pub ball_booking: Option<BallBooking>,
 }
 
@@ -147,9 +154,13 @@ impl Default for MessageTiming {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoleSwapFile {
+    /// By which protocol.
     pub protocol: Protocol,
+    /// When.
     pub policy: Policy,
+    /// Which roles.
     pub cast: SwapRolesFile,
+    /// How long robots wait.
     #[serde(default)]
     pub timers: Timers,
 }
@@ -158,6 +169,7 @@ pub struct RoleSwapFile {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BallBooking {
+    /// Which bookings count.
     pub rules: b3p::Rules,
     /// How much nearer than the booker a robot must be to book the ball in its stead.
     pub threshold: f32,
@@ -224,22 +236,32 @@ impl Default for Timers {
 /// The section as it runs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Teamwork {
+    /// Those that are on.
     pub mechanisms: Mechanisms,
+    /// How a robot knows its team mates.
     pub teammates_by: TeammatesBy,
     /// The rank of each role, 0 highest.
     pub ranks: Vec<usize>,
+    /// The role that sends goalie messages.
     pub goalie: Option<RoleIndex>,
+    /// When robots talk.
     pub talk: MessageTiming,
+    /// How roles are swapped.
     pub role_swap: Option<RoleSwapSpec>,
+    /// How the ball is booked.
     pub ball_booking: Option<BallBooking>,
 }
 
 /// How roles are swapped, with every name looked up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoleSwapSpec {
+    /// By which protocol.
     pub protocol: Protocol,
+    /// When.
     pub policy: Policy,
+    /// Which roles.
     pub cast: SwapRoles,
+    /// How long robots wait.
     pub timers: Timers,
 }
 
@@ -250,6 +272,7 @@ impl Teamwork {
         rank(role) < rank(other)
     }
 
+    /// Whether a mechanism is on.
     pub fn has(&self, mechanism: Mechanism) -> bool {
         self.mechanisms.has(mechanism)
     }

@@ -14,7 +14,7 @@ impl Interrupt {
     pub fn listen() -> Interrupt {
         let interrupt = Interrupt::default();
         let asked = interrupt.0.clone();
-        // Where somebody else sees to Ctrl-C, or whoever started the program keeps it from it, that stays so.
+        // Another handler of Ctrl-C stays, and so does a shield that the starter of the program put up.
         let _ = ctrlc::try_set_handler(move || {
             if asked.swap(true, Ordering::Relaxed) {
                 std::process::exit(Ending::Interrupted as i32);

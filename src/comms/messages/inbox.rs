@@ -14,7 +14,9 @@ pub struct Inbox(pub Vec<Received>);
 /// A message that arrived.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Received {
+    /// The sender's number in the team.
     pub from: PlayerNumber,
+    /// What it said.
     pub message: TeamMessage,
 }
 

@@ -34,6 +34,7 @@ pub enum TeamMessage {
 pub struct Position {
     /// Milliseconds on the sender's clock.
     pub time: u32,
+    /// The sender's number in its team.
     pub robot: u8,
     /// m in the team frame.
     pub position: Vec2,
@@ -48,7 +49,9 @@ pub struct Position {
 pub struct HaveBall {
     /// Milliseconds on the sender's clock.
     pub time: u32,
+    /// The sender's number in its team.
     pub robot: u8,
+    /// Whether it has the ball; false gives the claim up.
     pub have_ball: bool,
     /// An index into the strategy's roles.
     pub role: role_swap::RoleIndex,
@@ -59,14 +62,20 @@ pub struct HaveBall {
 pub struct GoalieNews {
     /// Milliseconds on the sender's clock.
     pub time: u32,
+    /// The goalie's number in its team.
     pub robot: u8,
+    /// Whether it leaves or enters its area.
     pub behaviour: GoalieBehaviour,
+    /// The side by which it does.
     pub side: GoalSide,
 }
 
+/// What the goalie does at the border of its area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum GoalieBehaviour {
+    /// It leaves its area.
     Leaving,
+    /// It is back in its area.
     Entering,
 }
 
@@ -83,6 +92,7 @@ pub enum GoalSide {
 pub struct Values {
     /// Milliseconds on the sender's clock.
     pub time: u32,
+    /// The sender's number in its team.
     pub robot: u8,
     /// One for each column of the policy.
     pub values: Vec<f32>,

@@ -63,9 +63,11 @@ pub enum Loss {
     Fault,
     /// The bucket was too empty to send it.
     Budget,
+    /// The whole band is jammed.
     Jammed,
     /// One of the robots is cut off, or a partition is between them.
     CutOff,
+    /// The receiver is too far away.
     Range,
     /// The radio's own loss.
     Chance,
@@ -151,6 +153,7 @@ impl fmt::Display for Loss {
 }
 
 impl Channel {
+    /// The channel of a match with this seed.
     pub fn new(seed: Seed, radio: Radio) -> Channel {
         Channel { seed, radio, links: BTreeMap::new(), buckets: BTreeMap::new() }
     }

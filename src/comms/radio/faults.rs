@@ -16,10 +16,13 @@ use crate::ids::RobotId;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FaultRule {
+    /// The kind of message.
     #[serde(default)]
     pub kind: Option<DataType>,
+    /// The sender.
     #[serde(default)]
     pub from: Option<RobotId>,
+    /// The receiver.
     #[serde(default)]
     pub to: Option<RobotId>,
     /// From the first time until just before the second, which may be `inf`. Packets at other times are not counted.
@@ -28,15 +31,19 @@ pub struct FaultRule {
     /// Which of the packets that satisfy all the above.
     #[serde(default)]
     pub which: Which,
+    /// What happens to the packets.
     pub act: Act,
 }
 
 /// A choice among the packets that a rule counts, from 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Which {
+    /// Each of them.
     #[default]
     All,
+    /// The first.
     First,
+    /// Only this one.
     Nth(u32),
     /// This one and all after it.
     From(u32),
@@ -45,6 +52,7 @@ pub enum Which {
 /// What a rule does to a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Act {
+    /// It is lost.
     Drop,
     /// It arrives this much later, s.
     Delay(f32),
@@ -109,6 +117,7 @@ impl FaultRule {
 }
 
 impl FaultRules {
+    /// Rules that have counted nothing yet.
     pub fn new(rules: impl IntoIterator<Item = FaultRule>) -> FaultRules {
         FaultRules { rules: rules.into_iter().map(|rule| (rule, 0)).collect() }
     }

@@ -19,6 +19,7 @@ pub struct Interference {
     pub jammed: bool,
     /// Robots that hear nobody and are heard by nobody.
     pub cut_off: BTreeSet<RobotId>,
+    /// Groups that do not hear each other.
     pub partitions: Vec<Partition>,
 }
 
@@ -28,7 +29,9 @@ pub struct Interference {
 pub struct Partition {
     /// What parts them, for people to read.
     pub reason: String,
+    /// One group.
     pub one: BTreeSet<RobotId>,
+    /// The other group.
     pub other: BTreeSet<RobotId>,
 }
 

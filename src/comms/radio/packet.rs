@@ -11,8 +11,11 @@ use crate::ids::RobotId;
 pub struct Packet {
     /// What the message is about of which it brings a piece.
     pub kind: DataType,
+    /// The sender.
     pub from: RobotId,
+    /// The receiver.
     pub to: RobotId,
+    /// The length of the datagram.
     pub bytes: Arc<[u8]>,
 }
 

@@ -28,6 +28,7 @@ pub struct RadioRecord {
 /// The packets of one directed link, or the sum over several.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LinkCounters {
+    /// Packets sent.
     pub sent: u64,
     /// Packets and duplicates that arrived.
     pub delivered: u64,

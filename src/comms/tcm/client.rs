@@ -25,6 +25,7 @@ pub(super) struct Outgoing {
 }
 
 impl TcmClient {
+    /// A client without messages, whose queues all have this rule.
     pub fn new(robot: RobotId, rule: QueueRule) -> TcmClient {
         TcmClient { team: robot.team as u8, queues: Queues::new(rule), dropped: Vec::new() }
     }

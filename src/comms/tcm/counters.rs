@@ -25,11 +25,13 @@ pub enum Dropped {
 /// The messages of one type and module, or the sum over several.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TypeCount {
+    /// Messages sent, each once however many receive it.
     pub messages_sent: u64,
     /// Data of the messages sent, bytes, once for each message however many receive it.
     pub bytes_sent: u64,
     /// Fragments sent, counted for each receiver.
     pub datagrams_sent: u64,
+    /// Messages received whole.
     pub messages_received: u64,
     /// Data of the messages received, bytes.
     pub bytes_received: u64,

@@ -112,7 +112,9 @@ pub fn from_postcard<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
 pub struct Arrived<T: Data> {
     /// The robot.
     pub entity: Entity,
+    /// The entity that sent it.
     pub from: Peer,
+    /// What it said.
     pub data: T,
 }
 

@@ -21,6 +21,7 @@ pub struct Directory {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{peers} peers do not find ports from {base_port} on")]
 pub struct OutOfPorts {
+    /// The first port.
     pub base_port: u16,
     pub peers: usize,
 }

@@ -12,7 +12,9 @@ use crate::ids::{RobotId, Team};
 pub struct ExternalMessage {
     /// Never a group: see [`Peer::is_one`].
     pub source: Address,
+    /// The receiver, perhaps a group.
     pub destination: Address,
+    /// How the data are to be read.
     pub data_type: DataType,
     /// As the module that sends it has serialised it.
     pub data: Vec<u8>,
@@ -22,10 +24,11 @@ pub struct ExternalMessage {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Address {
     pub peer: Peer,
+    /// The module in it.
     pub module: Module,
 }
 
-/// Who speaks or is spoken to. A team and everybody can only be spoken to.
+/// A sender or receiver. A team and everybody can only receive.
 ///
 /// In files it is written as people write it: `"home 2"`, `"away"`, `"computer 0"` or `"everybody"`; teams besides home, 0,
 /// and away, 1, are `"team 2"` with the robots `"team 2 0"` and so on.
@@ -89,10 +92,12 @@ impl Peer {
 }
 
 impl Module {
+    /// The first that is free for users.
     pub const FIRST_FREE: Module = Module(128);
 }
 
 impl DataType {
+    /// The first that is free for users.
     pub const FIRST_FREE: DataType = DataType(1024);
 }
 

@@ -52,7 +52,9 @@ pub(super) fn plugin(app: &mut App) {
 /// Carriers bring datagrams before the one, and take them after the other.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TcmSystems {
+    /// Datagrams become messages, and messages data.
     Receive,
+    /// Data become messages, and messages datagrams.
     Send,
 }
 
@@ -63,12 +65,15 @@ pub struct OnAir(pub Vec<Datagram>);
 /// A datagram on its way to one receiver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Datagram {
+    /// The sender.
     pub from: RobotId,
+    /// The receiver, perhaps a group.
     pub to: Peer,
+    /// The datagram itself.
     pub bytes: Arc<[u8]>,
 }
 
-/// Who takes part in the match, and where each is (the paper's `TCM.ini`).
+/// The entities of the match and their addresses (the paper's `TCM.ini`).
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Addresses(pub Directory);
 
@@ -82,11 +87,14 @@ pub struct Tcm {
     settings: TcmSettings,
     /// Of the messages that it sent.
     counter: u32,
+    /// Messages that have arrived in part.
     pub assembly: Assembly,
+    /// Counts of messages by module and type.
     pub counters: TypeCounters,
 }
 
 impl Tcm {
+    /// A team communication module without messages.
     pub fn new(settings: TcmSettings, clock: &Clock) -> Tcm {
         Tcm {
             settings,

@@ -14,6 +14,7 @@ use super::external_message::Module;
 pub struct QueueRule {
     /// Items that it holds at most. With 0 every item is dropped.
     pub capacity: usize,
+    /// What happens if an item finds the queue full.
     pub when_full: WhenFull,
 }
 
@@ -38,8 +39,11 @@ pub struct Queues<T> {
 /// Counts of a module's items. Put in = handed over + dropped + waiting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct QueueCounters {
+    /// Items put into the queue.
     pub put_in: u64,
+    /// Items taken out of it in turn.
     pub handed_over: u64,
+    /// Items that were dropped for want of room.
     pub dropped: u64,
 }
 

@@ -86,7 +86,7 @@ fn refereed(state: &MatchState, book: &RuleBook, whistles: &Whistles, clock: &Cl
     }
 }
 
-/// Where a match stands that a referee box referees: as the box says. Who was taken off otherwise is told, too.
+/// The state of a match that a referee box referees, as the box says. Robots that were taken off otherwise are told, too.
 fn followed(view: &View, removed: &[Removal], ours: Standing) -> Standing {
     let by_the_box = |side: usize| {
         view.penalties[side].iter().map(move |penalised| Sentence {

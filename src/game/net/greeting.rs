@@ -38,7 +38,7 @@ pub struct Awaited {
 }
 
 impl RemoteRobots {
-    /// Greets whom it is time to greet.
+    /// Greets the robots whose turn it is.
     pub(super) fn introduce(&mut self) {
         let due = self.robots.iter().filter(|(_, remote)| {
             let every = if remote.is_in { REMINDER } else { GREETING };

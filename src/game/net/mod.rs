@@ -101,17 +101,23 @@ pub const PATIENCE: Duration = Duration::from_secs(20);
 /// What cannot be done with a network.
 #[derive(Debug, thiserror::Error)]
 pub enum WireError {
+    /// A socket failed.
     #[error(transparent)]
     Udp(#[from] UdpError),
+    /// An entity of the match has no address.
     #[error("{0} has no address: add it to the addresses")]
     NoAddress(Peer),
+    /// No referee box was heard in time.
     #[error("no referee box was heard at {address} within {} s", patience.as_secs_f32())]
     NoBox { address: SocketAddr, patience: Duration },
+    /// A robot did not answer in time.
     #[error("{robot} has not answered at {address} for {} s: start it with `{}`", patience.as_secs_f32(), start(*robot))]
     Silent { robot: RobotId, address: SocketAddr, patience: Duration },
     #[error("no match has greeted {robot} at {address} for {} s: start it with `touchline run --remote {}:{}`",
         patience.as_secs_f32(), robot.team, robot.number)]
+    /// A robot heard of no match in time.
     NoMatch { robot: RobotId, address: SocketAddr, patience: Duration },
+    /// A robot plays another match.
     #[error("{robot} does not belong to the match at {address}: {difference}")]
     OtherMatch { robot: RobotId, address: SocketAddr, difference: String },
 }

@@ -53,6 +53,7 @@ pub enum Expectation {
 }
 
 impl Expectation {
+    /// The condition that it is about.
     pub fn what(&self) -> &Condition {
         match self {
             Expectation::Eventually { what, .. }
@@ -62,6 +63,7 @@ impl Expectation {
         }
     }
 
+    /// Why it must hold, for people; empty if not given.
     pub fn because(&self) -> &str {
         match self {
             Expectation::Eventually { because, .. }
@@ -76,6 +78,7 @@ impl Expectation {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Condition {
+    /// The robot has this role.
     RoleOf(RobotId, String),
     /// The sub-role of a robot whose role acts as others by turns; the role itself for all others.
     ActingAs(RobotId, String),
@@ -128,12 +131,13 @@ pub enum Condition {
         #[serde(default)]
         above: Option<f32>,
     },
-    InZone {
-        what: Thing,
-        zone: Area,
-    },
+    /// A thing is in a part of the pitch.
+    InZone { what: Thing, zone: Area },
+    /// Packets were sent.
     Sent(Packets),
+    /// Packets have arrived.
     Delivered(Packets),
+    /// The goals of a team.
     Goals {
         team: Team,
         #[serde(default)]
@@ -147,25 +151,29 @@ pub enum Condition {
     RolesAre(Team, BTreeMap<u8, String>),
     /// All robots of the team that are switched on know the same configuration.
     ConfigurationsAgree(Team),
+    /// All of these hold.
     All(Vec<Condition>),
+    /// One of these holds at least.
     Any(Vec<Condition>),
+    /// This does not hold.
     Not(Box<Condition>),
     /// Has held for this time without a break, s.
-    For {
-        seconds: f32,
-        what: Box<Condition>,
-    },
+    For { seconds: f32, what: Box<Condition> },
 }
 
 /// Packets of one kind: a message to three team mates is three packets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Packets {
+    /// The kind of message.
     pub kind: DataType,
+    /// The sender, any if not given.
     #[serde(default)]
     pub from: Option<RobotId>,
+    /// The receiver, any if not given.
     #[serde(default)]
     pub to: Option<RobotId>,
+    /// How many packets there must be.
     #[serde(default = "one")]
     pub at_least: u64,
     /// Counts only what came later than this, s.
@@ -180,9 +188,11 @@ fn one() -> u64 {
 /// Something that is somewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Thing {
+    /// The ball.
     Ball,
     /// The place where the ball was at the start.
     BallAtStart,
+    /// A robot.
     Robot(RobotId),
     /// A point in the pitch frame, m.
     At(f32, f32),
@@ -193,7 +203,9 @@ pub enum Thing {
 /// A part of the pitch. Home's is in the west, where it defends at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Area {
+    /// The penalty area in front of a team's goal.
     PenaltyArea(Team),
+    /// A team's half.
     Half(Team),
     /// Behind the goal line.
     Goal(Team),

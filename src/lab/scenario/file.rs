@@ -15,6 +15,7 @@ pub struct ScenarioFile {
     pub name: String,
     /// Where the claim comes from, such as "Hammerheads 2001, section VI-B".
     pub source: String,
+    /// More about it, for people.
     #[serde(default)]
     pub description: String,
     /// The match whose pitch, ball and rules it has, by its file's name.
@@ -26,6 +27,7 @@ pub struct ScenarioFile {
     /// A radio, by its file's name.
     #[serde(default = "perfect")]
     pub radio: String,
+    /// The seeds that it is played with.
     #[serde(default)]
     pub seeds: Seeds,
     /// With how many of the seeds it may fail, at each place of the ball.
@@ -33,16 +35,23 @@ pub struct ScenarioFile {
     pub may_fail: u16,
     /// How long it takes.
     pub seconds: f32,
+    /// Whether the rules of a match are enforced.
     #[serde(default)]
     pub referee: Referee,
+    /// The home team.
     pub home: SideFile,
+    /// The away team; nobody if not given.
     #[serde(default)]
     pub away: Option<SideFile>,
+    /// Where the ball starts.
     pub ball: BallFile,
+    /// What the radio does to which packets.
     #[serde(default)]
     pub faults: Vec<FaultRule>,
+    /// What happens when.
     #[serde(default)]
     pub script: Vec<TimedEvent>,
+    /// What must hold.
     pub expect: Vec<Expectation>,
     /// What the scenario is about: without it, it must fail.
     #[serde(default)]
@@ -61,7 +70,9 @@ fn perfect() -> String {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a number of seeds or a list of seeds")]
 pub enum Seeds {
+    /// The seeds 1 to this one.
     Count(u16),
+    /// Exactly these.
     List(Vec<u64>),
 }
 
@@ -72,6 +83,7 @@ impl Default for Seeds {
 }
 
 impl Seeds {
+    /// The seeds one by one.
     pub fn to_vec(&self) -> Vec<u64> {
         match self {
             Seeds::Count(count) => (1..=u64::from(*count)).collect(),
@@ -80,7 +92,7 @@ impl Seeds {
     }
 }
 
-/// Who sees to the rules.
+/// Who enforces the rules.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Referee {
     /// The ball is in play from the first tick on, and nobody whistles.
@@ -94,11 +106,15 @@ pub enum Referee {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SideFile {
+    /// The strategy's file.
     pub strategy: String,
+    /// The file of the robots' kind.
     #[serde(default = "cye")]
     pub robot: String,
+    /// The file of the robots' senses.
     #[serde(default = "perfect")]
     pub sensing: String,
+    /// The robots that take part.
     pub players: Vec<PlayerFile>,
 }
 
@@ -110,7 +126,9 @@ fn cye() -> String {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlayerFile {
+    /// Its number in the team, from 0.
     pub number: u8,
+    /// Where it starts, m.
     pub at: Vec2,
     /// Degrees, counter-clockwise from east.
     #[serde(default)]
@@ -127,6 +145,7 @@ pub struct PlayerFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BallFile {
+    /// Its places, m.
     pub at: Places,
     /// m/s
     #[serde(default)]
@@ -137,11 +156,14 @@ pub struct BallFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a place, such as (1, 2), or a grid, such as (x: [0, 1], y: [-2, 2])")]
 pub enum Places {
+    /// One place.
     One(Vec2),
+    /// Every x with every y.
     Grid { x: Vec<f32>, y: Vec<f32> },
 }
 
 impl Places {
+    /// The number of places.
     pub fn count(&self) -> usize {
         match self {
             Places::One(_) => 1,

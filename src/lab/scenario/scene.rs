@@ -14,6 +14,7 @@ use crate::world::referee::MatchState;
 pub struct Scene<'a> {
     /// Ticks that are over.
     pub tick: u64,
+    /// The pitch.
     pub pitch: &'a Pitch,
     /// m in the pitch frame.
     pub ball: Vec2,
@@ -31,6 +32,7 @@ pub struct Scene<'a> {
 /// A robot in a [`Scene`].
 #[derive(Clone, Debug)]
 pub struct RobotScene<'a> {
+    /// The robot.
     pub id: RobotId,
     /// In the pitch frame.
     pub pose: Pose,
@@ -38,9 +40,11 @@ pub struct RobotScene<'a> {
     pub speed: f32,
     /// Switched on: neither crashed nor off from the start.
     pub on: bool,
+    /// Its role's name.
     pub role: &'a str,
     /// The sub-role in which it acts; the role itself if that has none.
     pub acting_as: &'a str,
+    /// The name of its machine's state.
     pub activity: &'a str,
     /// Whether it claims the ball.
     pub claims: bool,
@@ -57,6 +61,7 @@ pub struct RobotScene<'a> {
 }
 
 impl Scene<'_> {
+    /// A robot of the scene, if it takes part.
     pub fn robot(&self, id: RobotId) -> Option<&RobotScene<'_>> {
         self.robots.iter().find(|robot| robot.id == id)
     }
@@ -91,6 +96,7 @@ impl Scene<'_> {
         }
     }
 
+    /// Whether a point lies in a part of the pitch.
     pub fn contains(&self, area: Area, point: Vec2) -> bool {
         let half = self.pitch.half_size();
         match area {

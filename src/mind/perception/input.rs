@@ -16,20 +16,29 @@ use crate::strategy::{Activity, Role, Strategy};
 #[derive(QueryData)]
 #[query_data(mutable)]
 pub struct Decider {
+    /// What the robot knows.
     pub input: DecisionInput,
+    /// What its operators remember.
     pub memory: &'static mut Memory,
 }
 
 /// The input of a robot's decisions.
 #[derive(QueryData)]
 pub struct DecisionInput {
+    /// The robot.
     pub id: &'static RobotId,
+    /// What it is built as.
     pub robot: &'static Robot,
+    /// What it believes of the field.
     pub model: &'static WorldModel,
+    /// How far it has moved by its own wheels or steps.
     pub odometry: &'static Odometry,
     pub team_model: &'static TeamModel,
+    /// Its role.
     pub role: &'static Role,
+    /// What it does with the ball.
     pub handling: &'static Handling,
+    /// What the referee orders.
     pub orders: &'static Orders,
 }
 

@@ -34,14 +34,20 @@ pub type PointSet = SmallVec<[Vec2; 16]>;
 /// What a robot has to go on when it decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Perception<'a> {
+    /// The robot's team.
     pub team: Team,
     /// The robot's role, as an index into the strategy's roles; not the sub-role that it acts in.
     pub role: usize,
+    /// What the robot believes of the field.
     pub model: &'a WorldModel,
     pub team_model: &'a TeamModel,
+    /// What its team arranges.
     pub teamwork: &'a Teamwork,
+    /// The pitch.
     pub pitch: &'a Pitch,
+    /// The zone of control of the robot's role.
     pub danger_zone: Zone,
+    /// The homebase that the robot's role has chosen, m.
     pub homebase: Vec2,
     /// Seconds since the match began.
     pub now: f32,
@@ -55,6 +61,7 @@ pub struct Perception<'a> {
     pub stalled_for: f32,
     /// From the robot's centre to its front and the radius of the ball, m.
     pub front: f32,
+    /// m.
     pub ball_radius: f32,
 }
 

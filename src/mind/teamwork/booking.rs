@@ -21,9 +21,12 @@ pub struct Booking(pub B3p);
 /// The booking of the ball, as a robot believes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BookingStatus {
+    /// Nobody has booked it.
     #[default]
     Free,
+    /// The robot has booked it itself.
     Own,
+    /// A team mate has booked it.
     Mate(PlayerNumber),
 }
 

@@ -173,7 +173,7 @@ impl SwapperItem<'_, '_> {
         self.step(Input::Initiate { reassignment, participants }, &spec.timers, clock);
     }
 
-    /// Whose locks an attempt needs: everybody's in the paper; in the hardened version those heard of lately, since a robot that
+    /// The robots whose locks an attempt needs: all in the paper; in the hardened version those heard lately, since a robot that
     /// is off would block all swaps for good, and the configurations mend whatever it missed.
     fn participants(&self, protocol: Protocol, players: usize) -> SmallVec<[PlayerNumber; 8]> {
         match protocol {

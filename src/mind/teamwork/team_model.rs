@@ -19,11 +19,13 @@ use crate::strategy::Strategy;
 pub struct TeamModel {
     /// The believed roles.
     pub roles: Assignment,
+    /// Claims of the ball.
     pub claims: Claims,
     /// Whether the robot has claimed the ball and nobody above it has.
     pub has_ball: bool,
     /// The team mate whose claim of the ball holds, and its role.
     pub carrier: Option<(PlayerNumber, RoleIndex)>,
+    /// Where the goalie is.
     pub goalie: GoalieWhereabouts,
     /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.
     pub values: SmallVec<[(PlayerNumber, Values, u64); 4]>,
@@ -33,6 +35,7 @@ pub struct TeamModel {
     pub booking: BookingStatus,
     /// If the robot is the goalie.
     pub border: BorderWatch,
+    /// When the robot itself said what.
     pub last_sent: LastSent,
     /// A position message is due at once, for it carries a new configuration.
     pub announce: bool,
@@ -41,8 +44,11 @@ pub struct TeamModel {
 /// When a robot sent which news last, in ticks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LastSent {
+    /// The tick of its last position message.
     pub position: Option<u64>,
+    /// The tick of its last have-ball message.
     pub have_ball: Option<u64>,
+    /// The tick of its last ball report.
     pub ball: Option<u64>,
 }
 

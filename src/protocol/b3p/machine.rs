@@ -23,6 +23,7 @@ pub struct B3p {
 }
 
 impl B3p {
+    /// A robot that knows of no booking.
     pub fn new(me: PlayerNumber, settings: BookingSettings) -> B3p {
         B3p { me, settings, booking: None, newest: 0, announced: 0, sees: false }
     }

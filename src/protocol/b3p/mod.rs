@@ -23,6 +23,7 @@ pub type BookingTerm = u32;
 /// Which bookings a robot believes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Rules {
     /// As in figure 5.
     Paper(Update),
@@ -78,8 +79,11 @@ pub struct KnownBooking {
 /// The one message of the protocol: its sender has the ball booked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Book {
+    /// From the booker to the ball.
     pub distance: Distance,
+    /// How often the ball has changed hands, under the hardened rules.
     pub term: BookingTerm,
+    /// The distance at which the ball was booked first in this term.
     pub key: Distance,
 }
 

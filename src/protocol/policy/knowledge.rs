@@ -10,8 +10,11 @@ use crate::protocol::role_swap::RoleIndex;
 /// attacker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SwapRoles {
+    /// The role of the halfback.
     pub halfback: RoleIndex,
+    /// The role of the floater.
     pub floater: RoleIndex,
+    /// The role of the forward.
     pub forward: RoleIndex,
 }
 
@@ -48,6 +51,7 @@ impl SwapRoles {
 /// What a robot knows when it decides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knowledge<'a> {
+    /// The robot's own number.
     pub me: PlayerNumber,
     /// The players that were heard of lately, this one included, in order of their numbers.
     pub players: &'a [Player],
@@ -66,6 +70,7 @@ pub struct Knowledge<'a> {
 /// A player as this robot knows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Player {
+    /// Its number in the team.
     pub number: PlayerNumber,
     /// The role it is believed to have.
     pub role: RoleIndex,

@@ -49,7 +49,7 @@ impl Assignment {
     }
 }
 
-/// An assignment that was committed: by whom and in which epoch. The derived order, by epoch, initiator and assignment, says
+/// An assignment that was committed, with its initiator and epoch. The derived order, by epoch, initiator and assignment, says
 /// which of two configurations holds.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Configuration {
@@ -64,7 +64,7 @@ pub struct Configuration {
 /// What an initiator wants to change, in the words of its rule.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Reassignment {
-    /// Who holds the first role of a pair takes the second, as in "the forward becomes the floater".
+    /// The holder of a pair's first role takes the second, as in "the forward becomes the floater".
     Roles(SmallVec<[(RoleIndex, RoleIndex); 4]>),
     /// These robots take these roles. The others keep theirs where they are still free, and share out the rest in order of
     /// their numbers.

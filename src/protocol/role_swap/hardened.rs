@@ -67,6 +67,7 @@ impl Hardened {
         Hardened { without: Some(ingredient), ..Hardened::new(me, all) }
     }
 
+    /// Takes an input and says what follows.
     pub fn step(&mut self, input: Input) -> Effects {
         let mut effects = Effects::new();
         match input {
@@ -83,10 +84,12 @@ impl Hardened {
         effects
     }
 
+    /// The robot's role.
     pub fn role(&self) -> RoleIndex {
         self.configuration.assignment.of(self.me).unwrap_or_default()
     }
 
+    /// The lock that it has given, if any.
     pub fn lock(&self) -> Option<Lock> {
         self.held.as_ref().map(|held| held.lock)
     }
@@ -96,10 +99,12 @@ impl Hardened {
         self.held.as_ref()?.staged.as_ref()
     }
 
+    /// The newest configuration that it knows.
     pub fn configuration(&self) -> &Configuration {
         &self.configuration
     }
 
+    /// Where it stands in a swap of its own.
     pub fn phase(&self) -> AttemptPhase {
         match self.attempt {
             Attempt::Idle => AttemptPhase::Idle,

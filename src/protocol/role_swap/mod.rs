@@ -22,7 +22,9 @@ use crate::ids::PlayerNumber;
 /// A robot's side of the protocol, in the version that its strategy chose.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RoleSwap {
+    /// The version of the paper.
     Paper(Paper),
+    /// The hardened version.
     Hardened(Hardened),
 }
 
@@ -51,6 +53,7 @@ impl RoleSwap {
         }
     }
 
+    /// Where the robot stands in a swap of its own.
     pub fn phase(&self) -> AttemptPhase {
         match self {
             RoleSwap::Paper(machine) => machine.phase(),

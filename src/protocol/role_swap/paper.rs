@@ -18,8 +18,11 @@ use crate::ids::PlayerNumber;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PaperRules {
+    /// What an initiator does if an acknowledgement is missing.
     pub on_missing_ack: OnMissingAck,
+    /// When a robot gives up its lock.
     pub unlock: Unlock,
+    /// What an initiator does with another's LOCK.
     pub while_initiating: WhileInitiating,
 }
 
@@ -49,6 +52,7 @@ pub enum Unlock {
 /// What an initiator does with another's request for its lock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum WhileInitiating {
+    /// It ignores the LOCK.
     #[default]
     Refuse,
     /// Shows why it must refuse: two attempts run into each other and double a role even over a perfect radio.
@@ -89,6 +93,7 @@ impl Paper {
         Paper { me, rules, at_start: all, role, sequence: 0, lock: None, attempt: PaperAttempt::Idle }
     }
 
+    /// Takes an input and says what follows.
     pub fn step(&mut self, input: Input) -> Effects {
         match input {
             Input::Initiate { reassignment, participants } => self.initiate(reassignment, &participants),
@@ -100,14 +105,17 @@ impl Paper {
         }
     }
 
+    /// The robot's role.
     pub fn role(&self) -> RoleIndex {
         self.role
     }
 
+    /// The lock that it has given, if any.
     pub fn lock(&self) -> Option<Lock> {
         self.lock
     }
 
+    /// Where it stands in a swap of its own.
     pub fn phase(&self) -> AttemptPhase {
         let sequence = self.sequence;
         match self.attempt {

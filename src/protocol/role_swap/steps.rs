@@ -14,6 +14,7 @@ pub type Effects = SmallVec<[Effect; 4]>;
 
 /// The four messages of the protocol.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Message {
     /// Asks for the receiver's lock.
     Lock { sequence: Sequence },
@@ -57,30 +58,27 @@ pub enum Order {
 
 /// What happens to a robot's side of the protocol.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Input {
     /// The robot has decided that roles should be swapped, with these others taking part.
-    Initiate {
-        reassignment: Reassignment,
-        participants: Numbers,
-    },
-    Receive {
-        from: PlayerNumber,
-        message: Message,
-    },
+    Initiate { reassignment: Reassignment, participants: Numbers },
+    /// A message has arrived.
+    Receive { from: PlayerNumber, message: Message },
     /// A position message told a team mate's configuration.
     Heard(Configuration),
+    /// A timer has run out.
     TimeOut(Timer),
 }
 
 /// What a step asks its surroundings to do.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Effect {
-    Send {
-        to: PlayerNumber,
-        message: Message,
-    },
-    /// Starts the timer anew.
+    /// Send a message.
+    Send { to: PlayerNumber, message: Message },
+    /// Restarts the timer.
     Start(Timer),
+    /// Stop a timer.
     Stop(Timer),
     /// Sends a position message at once, for it carries the new configuration.
     Announce,
@@ -102,6 +100,7 @@ pub enum Timer {
 /// How an attempt ended, as its initiator sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Outcome {
+    /// All have acknowledged their new roles.
     Completed,
     /// Not everybody's lock came in time.
     LocksMissing,
@@ -114,7 +113,9 @@ pub enum Outcome {
 /// Whose attempt a robot is locked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Lock {
+    /// The initiator that holds it.
     pub by: PlayerNumber,
+    /// The initiator's attempt.
     pub sequence: Sequence,
 }
 

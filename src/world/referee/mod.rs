@@ -53,7 +53,7 @@ const HEARD: usize = 64;
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Calls(pub Vec<Decision>);
 
-/// Robots that are to be taken off whatever they have done, since people or a scenario want it so.
+/// Robots that people or a scenario want off the pitch.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct PenaltiesDue(pub Vec<RobotId>);
 

@@ -94,7 +94,7 @@ fn own_goal(pitch: &Pitch, ends: Attacking) -> Vec2 {
     ends.turn(-pitch.goal_centre())
 }
 
-/// A dashed line with a tip at whom it serves, which keeps off both ends.
+/// A dashed line with a tip at the robot that it serves; it keeps off both ends.
 fn draw_support(pens: &mut Pens, (from, to): (Vec2, Vec2), off: f32, tint: Color) {
     let way = (to - from).normalize_or_zero();
     let (from, to) = (from + off * way, to - off * way);

@@ -1,4 +1,4 @@
-//! Who was locked, and who tried to swap roles.
+//! Locks and attempts to swap roles, over time.
 
 use bevy::prelude::*;
 
