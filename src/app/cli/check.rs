@@ -14,7 +14,7 @@ use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 use crate::lab::scenario::{Report, ScenarioPlan, junit};
 
 #[derive(Args, Debug, Default)]
-pub(super) struct Check {
+pub(super) struct CheckCommand {
     /// Files of any kind; everything in the asset folder, if none is given.
     files: Vec<PathBuf>,
     /// Also play each scenario without the mechanism that it depends on: then it must fail.
@@ -37,7 +37,7 @@ struct Findings<'a, W> {
     reports: Vec<Report>,
 }
 
-impl Check {
+impl CheckCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(path) = &self.junit {
             check_writable(path).map_err(CommandError::file(path))?;

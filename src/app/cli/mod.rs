@@ -38,13 +38,13 @@ enum CliCommand {
     Play(play::PlayCommand),
     /// Play a match headless, as fast as it goes, and print the result.
     #[command(after_help = EXIT_CODES)]
-    Run(run::Run),
+    Run(run::RunCommand),
     /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
     #[command(after_help = EXIT_CODES)]
-    Robot(robot::Robot),
+    Robot(robot::RobotCommand),
     /// Read asset files and say what is wrong with them.
     #[command(after_help = EXIT_CODES)]
-    Check(check::Check),
+    Check(check::CheckCommand),
 }
 
 /// Runs the program with the arguments of this process.

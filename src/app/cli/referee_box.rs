@@ -15,21 +15,21 @@ pub(super) struct BoxReport {
     team_numbers: Option<[u8; 2]>,
     /// The version of its packets.
     version: Option<u8>,
-    packets: Packets,
+    packets: PacketCounts,
     /// The penalties that it gave, by robot.
     penalties: Vec<Given>,
 }
 
 #[derive(Debug, Serialize)]
-struct Packets {
+struct PacketCounts {
     /// Followed, or the newest one once more.
     heard: u64,
-    ignored: Ignored,
+    ignored: IgnoredPackets,
 }
 
 /// Packets that were not followed, by their reason.
 #[derive(Debug, Serialize)]
-struct Ignored {
+struct IgnoredPackets {
     not_control_packets: u64,
     other_version: u64,
     wrong_length: u64,
@@ -55,7 +55,7 @@ impl BoxReport {
             times: *times,
         });
         let Heard { news: followed, repeated, not_ours, version, length, teams, sender, stale } = news.heard;
-        let ignored = Ignored {
+        let ignored = IgnoredPackets {
             not_control_packets: not_ours,
             other_version: version,
             wrong_length: length,
@@ -66,7 +66,7 @@ impl BoxReport {
         Some(BoxReport {
             team_numbers: news.team_numbers,
             version: news.sender.map(|(_, version)| version as u8),
-            packets: Packets { heard: followed + repeated, ignored },
+            packets: PacketCounts { heard: followed + repeated, ignored },
             penalties: penalties.collect(),
         })
     }
@@ -76,8 +76,14 @@ impl BoxReport {
             return writeln!(out, "referee box none was heard");
         };
         writeln!(out, "referee box version {version}: home is team {home}, away team {away}")?;
-        let Ignored { not_control_packets, other_version, wrong_length, other_teams, other_box, overtaken } =
-            self.packets.ignored;
+        let IgnoredPackets {
+            not_control_packets,
+            other_version,
+            wrong_length,
+            other_teams,
+            other_box,
+            overtaken,
+        } = self.packets.ignored;
         let ignored =
             not_control_packets + other_version + wrong_length + other_teams + other_box + overtaken;
         let given: u64 = self.penalties.iter().map(|given| given.times).sum();

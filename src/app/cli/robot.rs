@@ -14,10 +14,10 @@ use crate::game::net::{RobotEnd, RobotProcess, RobotReport, WireError};
 use crate::ids::{RobotId, Team};
 
 #[derive(Args, Debug)]
-pub(super) struct Robot {
+pub(super) struct RobotCommand {
     /// Its team.
     #[arg(long)]
-    team: Side,
+    team: TeamChoice,
     /// Its number on the shirt, from 0.
     #[arg(long)]
     number: u8,
@@ -35,17 +35,17 @@ pub(super) struct Robot {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Side {
+enum TeamChoice {
     Home,
     Away,
 }
 
-impl Robot {
+impl RobotCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let plan = self.options.plan(assets, &self.seed)?;
         let team = match self.team {
-            Side::Home => Team::Home,
-            Side::Away => Team::Away,
+            TeamChoice::Home => Team::Home,
+            TeamChoice::Away => Team::Away,
         };
         let id = RobotId::new(team, self.number);
         plan.check_robot("--number", Some(id))?;

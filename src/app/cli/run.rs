@@ -21,7 +21,7 @@ use crate::ids::Team;
 use crate::world::referee::RuleBook;
 
 #[derive(Args, Debug, Default)]
-pub(super) struct Run {
+pub(super) struct RunCommand {
     #[command(flatten)]
     options: MatchOptions,
     #[command(flatten)]
@@ -35,7 +35,7 @@ pub(super) struct Run {
 
 /// The result of a match, home first where there are two figures.
 #[derive(Debug, Serialize)]
-struct Report {
+struct RunReport {
     name: String,
     teams: [String; 2],
     seed: u64,
@@ -147,7 +147,7 @@ impl Messages {
     }
 }
 
-impl Run {
+impl RunCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let choice = self.host.choice(&self.options, &self.seed)?;
         let plan = MatchPlan::read(assets, &choice)?;
@@ -173,7 +173,7 @@ pub(super) fn play_headless(
     await_robots(&mut game, patience, interrupt)?;
     play_on(&mut game, plan, started, interrupt)?;
     net::finish(game.world_mut());
-    let report = Report::of(&game, plan, started.elapsed().as_secs_f64());
+    let report = RunReport::of(&game, plan, started.elapsed().as_secs_f64());
     if json {
         super::ending::print_json(&report, out)?;
     } else {
@@ -246,10 +246,10 @@ fn progress(plan: &MatchPlan) -> ProgressBar {
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
-impl Report {
-    fn of(game: &Match, plan: &MatchPlan, wall_seconds: f64) -> Report {
+impl RunReport {
+    fn of(game: &Match, plan: &MatchPlan, wall_seconds: f64) -> RunReport {
         let (record, clock) = (game.record(), game.clock());
-        Report {
+        RunReport {
             name: plan.name.clone(),
             teams: plan.teams.each_ref().map(|team| team.strategy.name.clone()),
             seed: plan.seed,
@@ -336,7 +336,7 @@ mod tests {
     fn the_result_of_a_match_that_never_began_has_a_number_in_each_place() {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         let plan = MatchPlan::read(&assets, &crate::game::Choice::default()).expect("the default match");
-        let report = Report::of(&Match::new(&plan), &plan, 0.0);
+        let report = RunReport::of(&Match::new(&plan), &plan, 0.0);
         assert!(report.interrupted);
         let numbers = numbers(&serde_json::to_value(&report).expect("the report is JSON"));
         assert!(numbers.len() > 20 && numbers.iter().all(|number| number.is_finite()), "{numbers:?}");

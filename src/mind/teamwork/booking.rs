@@ -3,11 +3,11 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::team_model::TeamModel;
+use super::team_model::{BookingStatus, TeamModel};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
 use crate::comms::tcm::TcmClient;
-use crate::ids::{PlayerNumber, RobotId};
+use crate::ids::RobotId;
 use crate::mind::world_model::WorldModel;
 use crate::protocol::b3p::{B3p, BookingInput, BookingSettings, Distance};
 use crate::robot::{Orders, Robot};
@@ -17,18 +17,6 @@ use crate::strategy::{Activity, Strategies, Strategy};
 /// A robot's side of the ball booking.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
 pub struct Booking(pub B3p);
-
-/// The booking of the ball, as a robot believes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum BookingStatus {
-    /// Nobody has booked it.
-    #[default]
-    Free,
-    /// The robot has booked it itself.
-    Own,
-    /// A team mate has booked it.
-    Mate(PlayerNumber),
-}
 
 impl Booking {
     /// The side of a robot whose team has just kicked off; `None` if its strategy books no balls.

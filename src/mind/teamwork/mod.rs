@@ -16,12 +16,12 @@ mod tests;
 
 use bevy::prelude::*;
 
-pub use booking::{Booking, BookingStatus};
+pub use booking::Booking;
 pub use claims::{Claim, Claims};
 pub use goalie::GoalieWhereabouts;
 pub use reports::{BallReports, Reported};
 pub use swap::Swapping;
-pub use team_model::{LastSent, TeamModel, kick_off_roles};
+pub use team_model::{BookingStatus, LastSent, TeamModel, kick_off_roles};
 
 use crate::schedule::{Tick, TickSystems};
 

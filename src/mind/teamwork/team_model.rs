@@ -3,7 +3,6 @@
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::booking::BookingStatus;
 use super::claims::Claims;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
 use super::reports::BallReports;
@@ -39,6 +38,18 @@ pub struct TeamModel {
     pub last_sent: LastSent,
     /// A position message is due at once, for it carries a new configuration.
     pub announce: bool,
+}
+
+/// The booking of the ball, as a robot believes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BookingStatus {
+    /// Nobody has booked it.
+    #[default]
+    Free,
+    /// The robot has booked it itself.
+    Own,
+    /// A team mate has booked it.
+    Mate(PlayerNumber),
 }
 
 /// When a robot sent which news last, in ticks.
