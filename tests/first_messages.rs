@@ -8,11 +8,11 @@ use touchline::clock::{Clock, TICK_HZ};
 use touchline::comms::messages::{GoalieBehaviour, TeamMessage};
 use touchline::comms::tcm::{Arrived, Data};
 use touchline::data::AssetKind;
-use touchline::game::requests::{Request, Treatment};
+use touchline::game::requests::{Request, RobotChange};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::robot::{Ailment, Eyes, Recall};
+use touchline::robot::{Eyes, Restart, RobotFailure};
 
 use crate::support::{assets, ball, robot};
 
@@ -69,8 +69,8 @@ fn plan(strategy: &str) -> MatchPlan {
     }
     for id in plan.robots().collect::<Vec<_>>() {
         let then = |tick, treatment| (tick, Request::Robot(id, treatment));
-        plan.script.push(then(FALL, Treatment::Afflict(Ailment::Crashed)));
-        plan.script.push(then(RISE, Treatment::Revive(Recall::Lost)));
+        plan.script.push(then(FALL, RobotChange::Fail(RobotFailure::Crashed)));
+        plan.script.push(then(RISE, RobotChange::Revive(Restart::Lost)));
     }
     plan
 }

@@ -4,7 +4,9 @@ mod announced;
 mod greeting;
 mod league;
 mod processes;
+mod recorded;
 mod referee_box;
+mod stamps;
 
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -15,7 +17,7 @@ use touchline::comms::radio::{RadioRecord, TransmissionState};
 use touchline::comms::tcm::fragments::{Assembly, Header, Limits, USUAL_DATAGRAM, cut};
 use touchline::comms::tcm::udp::UdpError;
 use touchline::comms::tcm::{Data, DataType, Directory, ExternalMessage, HOST, Module, Peer, Tcm};
-use touchline::game::net::{self, CarrierFigures, Greeting, UdpCarrier, WireError, WirePlan};
+use touchline::game::net::{self, CarrierFigures, Greeting, NetworkError, NetworkPlan, UdpCarrier};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::protocol::role_swap;
@@ -76,13 +78,13 @@ fn open(plan: &MatchPlan) -> (Match, MatchPlan) {
     let mut plan = plan.clone();
     loop {
         plan.addresses = Some(free_directory(&plan));
-        if let Some(address) = &mut plan.wires.gamecontroller {
+        if let Some(address) = &mut plan.network.gamecontroller {
             *address = free_addresses(1)[0];
         }
         let mut game = Match::new(&plan);
         match net::open(game.world_mut(), &plan) {
             Ok(()) => return (game, plan),
-            Err(WireError::Udp(UdpError::Bind { .. })) => {}
+            Err(NetworkError::Udp(UdpError::Bind { .. })) => {}
             Err(error) => panic!("{error}"),
         }
     }
@@ -95,7 +97,7 @@ fn greet(game: &mut Match) {
 }
 
 fn by_udp(plan: MatchPlan) -> MatchPlan {
-    MatchPlan { wires: WirePlan { udp: true, ..WirePlan::default() }, ..plan }
+    MatchPlan { network: NetworkPlan { udp: true, ..NetworkPlan::default() }, ..plan }
 }
 
 fn address_of(plan: &MatchPlan, robot: RobotId) -> SocketAddr {
@@ -231,8 +233,8 @@ fn an_address_that_is_taken_or_missing_is_named_and_no_socket_stays_open() {
 /// The test plays the part of a robot in another process: it tells and hears nothing but team messages.
 #[test]
 fn a_lock_of_a_robot_in_another_process_is_recorded_with_its_kind_and_answered() {
-    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
-    let (mut game, plan) = open(&MatchPlan { wires: remote, ..talkative(0.1) });
+    let remote = NetworkPlan { udp: true, remote: vec![HOME_1], ..NetworkPlan::default() };
+    let (mut game, plan) = open(&MatchPlan { network: remote, ..talkative(0.1) });
     let robot =
         UdpSocket::bind(address_of(&plan, HOME_1)).expect("the match leaves the address to the robot");
     robot.set_nonblocking(true).expect("sockets can do that");

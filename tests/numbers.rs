@@ -8,7 +8,7 @@ use std::process::Command;
 
 use bevy::prelude::*;
 use touchline::game::Match;
-use touchline::game::requests::{Request, Requests, Shove};
+use touchline::game::requests::{BodyChange, Request, Requests};
 use touchline::geometry::{Pose, Twist};
 use touchline::ids::{RobotId, Team};
 use touchline::lab::scenario::ScenarioPlan;
@@ -201,12 +201,12 @@ fn however_hard_something_is_pushed_it_stays_on_the_pitch() {
         let mut requests = game.world_mut().resource_mut::<Requests>();
         if tick % 20 == 0 {
             for team in [Team::Home, Team::Away] {
-                requests.ask(Request::Body(Shove::Push { robot: RobotId::new(team, 0), by: push }));
+                requests.ask(Request::Body(BodyChange::Push { robot: RobotId::new(team, 0), by: push }));
             }
-            requests.ask(Request::Body(Shove::Ball { at: Vec2::ZERO, velocity: push }));
+            requests.ask(Request::Body(BodyChange::Ball { at: Vec2::ZERO, velocity: push }));
         }
         if tick == 190 {
-            requests.ask(Request::Body(Shove::Ball { at, velocity: Vec2::ZERO }));
+            requests.ask(Request::Body(BodyChange::Ball { at, velocity: Vec2::ZERO }));
         }
         game.tick();
         if tick < 190 {
@@ -225,7 +225,8 @@ fn nothing_moves_faster_than_50_metres_or_turns_faster_than_100_radians_a_second
         let mut requests = game.world_mut().resource_mut::<Requests>();
         // Each push is bounded; that so many add up is what the limit is for.
         for (team, number) in [(Team::Home, 0), (Team::Home, 1), (Team::Away, 0)].repeat(8) {
-            requests.ask(Request::Body(Shove::Push { robot: RobotId::new(team, number), by: 1e30 * way }));
+            requests
+                .ask(Request::Body(BodyChange::Push { robot: RobotId::new(team, number), by: 1e30 * way }));
         }
         game.tick();
         assert_on_pitch(&mut game);

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use bevy::prelude::*;
 use touchline::comms::radio::{InFlight, Loss, RadioRecord, TransmissionState};
 use touchline::game::record::Record;
-use touchline::game::requests::{Request, Requests, Treatment};
+use touchline::game::requests::{Request, Requests, RobotChange};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
-use touchline::robot::Ailment;
+use touchline::robot::RobotFailure;
 
 use crate::support::assets;
 
@@ -110,8 +110,8 @@ fn what_is_said_to_a_deaf_robot_or_by_a_mute_one_is_lost_and_counted_as_such() {
     let (deaf, mute) = (RobotId::new(Team::Home, 1), RobotId::new(Team::Home, 2));
     let mut game = Match::new(&talkative("perfect", 1));
     let mut requests = game.world_mut().resource_mut::<Requests>();
-    requests.ask(Request::Robot(deaf, Treatment::Afflict(Ailment::Deaf)));
-    requests.ask(Request::Robot(mute, Treatment::Afflict(Ailment::Mute)));
+    requests.ask(Request::Robot(deaf, RobotChange::Fail(RobotFailure::Deaf)));
+    requests.ask(Request::Robot(mute, RobotChange::Fail(RobotFailure::Mute)));
     for _ in 0..600 {
         game.tick();
     }

@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 
-use touchline::game::requests::{Request, Requests};
-use touchline::game::{Match, start_match};
+use bevy::prelude::Vec2;
+use touchline::game::requests::{
+    BodyChange, Calibration, RadioChange, Request, RequestLog, Requests, RobotChange,
+};
+use touchline::game::{Match, MatchPlan, start_match};
 use touchline::ids::{RobotId, Team};
 use touchline::robot::pilot::Pilot;
+use touchline::robot::{Restart, RobotFailure};
 
 use crate::support::{changed_strategy, digest_of, friendly, robot};
 
@@ -77,6 +81,51 @@ fn a_strategy_can_be_exchanged_during_the_match() {
         game.tick();
     }
     assert_ne!(game.record().digest, digest_of(&plan));
+}
+
+#[test]
+fn a_match_with_people_and_changed_files_is_played_again_from_its_requests() {
+    let (pilot, other) = (RobotId::new(Team::Away, 3), RobotId::new(Team::Home, 1));
+    let levers = |throttle| Pilot { throttle, turn: 0.5, ..Pilot::default() };
+    let slow = changed_strategy("hammerheads_2001", "(1.0, \"dock\")", "(0.5, \"dock\")");
+    let plan = friendly(7, 0.3);
+    let team = &plan.teams[0];
+    let mut kind = team.kind.as_ref().clone();
+    kind.body.friction *= 0.5;
+    let calibration = Calibration { kind: Arc::new(kind), sensing: team.sensing.clone() };
+    let asked = |tick: u64| match tick {
+        400 => vec![Request::TakeOver(pilot), Request::Steer { robot: pilot, pilot: levers(1.0) }],
+        500 => vec![
+            Request::SetWeight { team: Team::Home, assemblage: 0, term: 0, weight: 2.0 },
+            Request::ChangeStrategy { team: Team::Home, strategy: slow.clone() },
+            Request::Radio(RadioChange::ExtraLoss(0.5)),
+        ],
+        600 => vec![
+            Request::Steer { robot: pilot, pilot: levers(-0.5) },
+            Request::Robot(other, RobotChange::Recalibrate(calibration.clone())),
+            Request::Robot(other, RobotChange::Fail(RobotFailure::Crashed)),
+        ],
+        700 => vec![
+            Request::Robot(other, RobotChange::Revive(Restart::Lost)),
+            Request::HandBack(pilot),
+            Request::Body(BodyChange::Push { robot: pilot, by: Vec2::new(0.3, 0.1) }),
+            Request::Robot(RobotId::new(Team::Away, 1), RobotChange::Penalise),
+        ],
+        _ => Vec::new(),
+    };
+    let mut game = Match::new(&plan);
+    game.world_mut().insert_resource(RequestLog::default());
+    while !game.is_over() {
+        let tick = game.clock().tick;
+        let mut requests = game.world_mut().resource_mut::<Requests>();
+        asked(tick).into_iter().for_each(|request| requests.ask(request));
+        game.tick();
+    }
+    let RequestLog(requests) = game.world().resource::<RequestLog>().clone();
+    assert_eq!(requests.len(), 12);
+    assert_ne!(game.record().digest, digest_of(&plan));
+    let again = MatchPlan { script: requests, ..plan };
+    assert_eq!(game.record().digest, digest_of(&again));
 }
 
 #[test]

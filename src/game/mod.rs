@@ -23,7 +23,7 @@ use crate::clock::Clock;
 use crate::comms::radio::{Channel, FaultRules, Interference, RadioRecord};
 use crate::comms::tcm::{Addresses, Incoming, OnAir};
 use crate::game::record::Record;
-use crate::game::requests::{Requests, Script};
+use crate::game::requests::{RequestLog, Requests, Script};
 use crate::ids::{MatchEntity, RobotId, Team};
 use crate::rng::Seed;
 use crate::schedule::{self, Tick};
@@ -46,6 +46,9 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
         world.despawn(entity);
     }
     net::close(world);
+    if let Some(mut log) = world.get_resource_mut::<RequestLog>() {
+        log.0.clear();
+    }
     let seed = Seed(plan.seed);
     let clock = Clock::default();
     world.insert_resource(clock);
@@ -75,6 +78,7 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     for id in plan.robots() {
         spawn_planned(world, plan, id, seed, &clock);
     }
+    net::prepare(world, plan);
 }
 
 /// Puts one robot of a match into this world, without a body and without anybody else, for a process of its own.
@@ -89,12 +93,6 @@ pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity
     world.insert_resource(RadioRecord::default());
     world.insert_resource(Addresses(plan.directory()));
     spawn_mind(world, plan, robot, seed, &clock)
-}
-
-/// Plays one tick: first what crosses the network, if anything does, then the match.
-pub fn advance(world: &mut World) {
-    net::exchange(world);
-    world.run_schedule(Tick);
 }
 
 /// A match without a window, run as fast as it can.
@@ -116,7 +114,7 @@ impl Match {
     /// Plays one tick.
     pub fn tick(&mut self) {
         let world = self.app.world_mut();
-        advance(world);
+        world.run_schedule(Tick);
         // Otherwise the world remembers every message that has ever been delivered.
         world.clear_trackers();
     }

@@ -11,7 +11,7 @@ use super::team::{TeamFile, TeamPlan, give_roles, read_strategy};
 use crate::comms::radio::{FaultRule, Radio};
 use crate::comms::tcm::{Directory, HOST, TcmSettings};
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, no_such};
-use crate::game::net::{WirePlan, team_numbers_fault};
+use crate::game::net::{NetworkPlan, team_numbers_fault};
 use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
@@ -66,7 +66,7 @@ pub struct Choice {
     /// A file that says where robots and computers are.
     pub addresses: Option<PathBuf>,
     /// What crosses a network; boxed, since it is large and mostly empty.
-    pub wires: Box<WirePlan>,
+    pub network: Box<NetworkPlan>,
 }
 
 /// A match that can be played: every file is read and sound.
@@ -87,7 +87,7 @@ pub struct MatchPlan {
     /// Where the robots and computers are that the TCM speaks to.
     pub addresses: Option<Directory>,
     /// What crosses a network.
-    pub wires: WirePlan,
+    pub network: NetworkPlan,
     /// Home first.
     pub teams: [TeamPlan; 2],
     /// The seed of all dice.
@@ -144,8 +144,8 @@ impl MatchPlan {
         if let Some((field, message)) = ball_fault.or(rules_fault).or(tcm_fault) {
             return Err(source.error_at(&Field::root().dotted(&field), message));
         }
-        if choice.wires.league_ports.is_some() {
-            file.tcm.datagram = file.tcm.datagram.min(choice.wires.version.longest_message());
+        if choice.network.league_ports.is_some() {
+            file.tcm.datagram = file.tcm.datagram.min(choice.network.version.longest_message());
         }
         if let Some(minutes) = choice.half_minutes {
             file.rules.half_minutes = minutes;
@@ -169,11 +169,11 @@ impl MatchPlan {
             TeamPlan::read(assets, &file.away, &pitch, &file.ball)?,
         ];
         let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
-        let mut wires = WirePlan::clone(&choice.wires);
-        if wires.team_numbers.is_none() {
-            wires.team_numbers = team_numbers(&source, &file)?;
+        let mut network = NetworkPlan::clone(&choice.network);
+        if network.team_numbers.is_none() {
+            network.team_numbers = team_numbers(&source, &file)?;
         }
-        if let Some((option, message)) = wires.fault() {
+        if let Some((option, message)) = network.fault() {
             return Err(DataError::new(option, message));
         }
         let plan = MatchPlan {
@@ -184,7 +184,7 @@ impl MatchPlan {
             radio,
             tcm: file.tcm,
             addresses,
-            wires,
+            network,
             teams,
             seed: choice.seed,
             pilot: choice.pilot,
@@ -193,7 +193,7 @@ impl MatchPlan {
             script: Vec::new(),
         };
         plan.check_robot("--pilot", plan.pilot)?;
-        for robot in &plan.wires.remote {
+        for robot in &plan.network.remote {
             plan.check_robot("--remote", Some(*robot))?;
         }
         Ok(plan)

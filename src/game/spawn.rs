@@ -105,7 +105,7 @@ impl Entry<'_> {
 /// Everything of a robot but its body.
 fn parts(entry: &Entry, clock: &Clock) -> impl Bundle + use<> {
     let mut robot = Robot::new(entry.kind.clone(), entry.sensing.clone(), clock);
-    robot.condition.crashed = !entry.on;
+    robot.health.crashed = !entry.on;
     let attacking = MatchState::attacking_at_start(entry.id.team);
     let model =
         if entry.told { WorldModel::told(attacking.turn_pose(entry.pose)) } else { WorldModel::default() };

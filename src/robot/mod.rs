@@ -1,8 +1,8 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
-mod condition;
 mod gait;
 pub mod handling;
+mod health;
 mod intent;
 mod kind;
 mod legs;
@@ -18,8 +18,8 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use smallvec::SmallVec;
 
-pub use condition::{Ailment, Condition, Recall};
 pub use gait::Gait;
+pub use health::{Health, Restart, RobotFailure};
 pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
 pub use legs::{Chin, GaitNoise, Kick, Neck, Walker};
@@ -31,12 +31,12 @@ pub use wheel_speeds::WheelSpeeds;
 use crate::clock::Clock;
 use crate::ids::RobotId;
 
-/// A robot; its entity is its drive unit. Its condition is changed by the Script stage only.
+/// A robot; its entity is its drive unit. Its health is changed by the Script stage only.
 #[derive(Component, Clone, Debug)]
 pub struct Robot {
     pub kind: Arc<RobotKind>,
     pub sensing: Arc<Sensing>,
-    pub condition: Condition,
+    pub health: Health,
     /// Its decisions are made in another process.
     pub remote: bool,
     /// Ticks between two decisions.
@@ -46,7 +46,7 @@ pub struct Robot {
 impl Robot {
     pub fn new(kind: Arc<RobotKind>, sensing: Arc<Sensing>, clock: &Clock) -> Robot {
         let decision_ticks = clock.ticks(1.0 / kind.control_hz);
-        Robot { kind, sensing, condition: Condition::default(), remote: false, decision_ticks }
+        Robot { kind, sensing, health: Health::default(), remote: false, decision_ticks }
     }
 
     /// Whether the robot's control system decides in this tick, and here.
@@ -56,7 +56,7 @@ impl Robot {
 
     /// Whether its sensors are read in this tick.
     pub fn senses(&self, clock: &Clock) -> bool {
-        !self.condition.crashed && self.is_due(clock.tick)
+        !self.health.crashed && self.is_due(clock.tick)
     }
 
     /// Whether a decision falls into a tick, as long as the robot is on.

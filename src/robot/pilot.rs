@@ -1,11 +1,12 @@
 //! A person at the controls of a robot: one more way to command its motors, within the same limits.
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::robot::KickIntent;
 
 /// Put on a robot that a person drives; the keys are read by the window and written in the Script stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
 pub struct Pilot {
     /// Share of the top speed, -1 to 1.
     pub throttle: f32,

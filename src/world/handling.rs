@@ -40,7 +40,7 @@ fn decide_handling(
             continue;
         }
         let handling = &mut *handling;
-        if orders.state != RobotState::Playing || !robot.condition.drives() {
+        if orders.state != RobotState::Playing || !robot.health.drives() {
             handling.let_go();
             continue;
         }

@@ -3,8 +3,8 @@
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 
 use touchline::comms::tcm::Tcm;
-use touchline::game::net::{self, WirePlan};
-use touchline::game::requests::{Request, Requests, Treatment};
+use touchline::game::net::{self, NetworkPlan};
+use touchline::game::requests::{Request, Requests, RobotChange};
 use touchline::game::{Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::world::gamecontroller::control::{Colour, ControlPacket, Penalty, State, Version};
@@ -19,7 +19,7 @@ pub fn announced(plan: MatchPlan) -> (Match, UdpSocket) {
     let socket = stranger();
     socket.set_nonblocking(true).expect("sockets can do that");
     let announce = Some(socket.local_addr().expect("it is bound"));
-    let (game, _) = open(&MatchPlan { wires: WirePlan { announce, ..plan.wires }, ..plan });
+    let (game, _) = open(&MatchPlan { network: NetworkPlan { announce, ..plan.network }, ..plan });
     (game, socket)
 }
 
@@ -109,8 +109,8 @@ fn the_team_that_defends_the_left_goal_comes_first_in_its_colour_and_with_its_go
 #[test]
 fn the_budget_of_messages_is_counted_down_in_every_version() {
     for (version, budget) in [(Version::V18, 1_200), (Version::V19, 12_000), (Version::V20, 12_000)] {
-        let wires = WirePlan { version, ..WirePlan::default() };
-        let (mut game, socket) = announced(MatchPlan { wires, ..talkative(0.1) });
+        let network = NetworkPlan { version, ..NetworkPlan::default() };
+        let (mut game, socket) = announced(MatchPlan { network, ..talkative(0.1) });
         while !game.is_over() {
             game.tick();
         }
@@ -134,7 +134,7 @@ fn the_budget_of_messages_is_counted_down_in_every_version() {
 #[test]
 fn a_robot_that_people_took_off_is_penalised_without_a_time() {
     let (mut game, socket) = announced(talkative(10.0));
-    let penalise = Request::Robot(RobotId::new(Team::Away, 2), Treatment::Penalise);
+    let penalise = Request::Robot(RobotId::new(Team::Away, 2), RobotChange::Penalise);
     game.world_mut().resource_mut::<Requests>().ask(penalise);
     (0..60).for_each(|_| game.tick());
     let packet = packets(&socket).pop().expect("it is announced");
@@ -149,8 +149,8 @@ fn a_match_is_announced_by_broadcast_and_over_ipv6() {
         socket.set_nonblocking(true).expect("sockets can do that");
         let port = socket.local_addr().expect("it is bound").port();
         let announce = Some(SocketAddr::new(host.parse().expect("it is an address"), port));
-        let wires = WirePlan { announce, ..WirePlan::default() };
-        let (mut game, _) = open(&MatchPlan { wires, ..talkative(0.1) });
+        let network = NetworkPlan { announce, ..NetworkPlan::default() };
+        let (mut game, _) = open(&MatchPlan { network, ..talkative(0.1) });
         game.tick();
         assert_eq!(packets(&socket).len(), 1, "{host}");
     }
@@ -170,8 +170,8 @@ fn the_wall_clock_decides_once_a_window_asks_for_it_and_a_failure_is_told_once()
     assert_eq!(packets(&socket).len(), 1);
 
     let nowhere = Some(SocketAddr::from(([127, 0, 0, 1], 0)));
-    let wires = WirePlan { announce: nowhere, ..WirePlan::default() };
-    let (mut game, _) = open(&MatchPlan { wires, ..talkative(10.0) });
+    let network = NetworkPlan { announce: nowhere, ..NetworkPlan::default() };
+    let (mut game, _) = open(&MatchPlan { network, ..talkative(10.0) });
     let told = frames(&mut game, 40);
     assert_eq!(told.len(), 1, "{told:?}");
     for words in ["the match cannot be announced", "127.0.0.1:0"] {
@@ -184,8 +184,8 @@ fn the_wall_clock_decides_once_a_window_asks_for_it_and_a_failure_is_told_once()
 fn a_match_is_announced_with_the_numbers_that_its_teams_have() {
     for (team_numbers, told) in [(None, [1, 2]), (Some([6, 9]), [6, 9])] {
         let plan = talkative(0.1);
-        let wires = WirePlan { team_numbers, ..WirePlan::default() };
-        let (mut game, socket) = announced(MatchPlan { wires, ..plan });
+        let network = NetworkPlan { team_numbers, ..NetworkPlan::default() };
+        let (mut game, socket) = announced(MatchPlan { network, ..plan });
         game.tick();
         let packet = packets(&socket).remove(0);
         assert_eq!(packet.teams.each_ref().map(|team| team.team_number), told);

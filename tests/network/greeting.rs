@@ -10,27 +10,29 @@ use touchline::comms::messages::TeamMessage;
 use touchline::comms::tcm::fragments::{Assembly, Limits};
 use touchline::comms::tcm::{Addresses, Data, ExternalMessage, HOST, Peer};
 use touchline::game::net::{
-    self, Greeting, Introduction, RobotEnd, RobotProcess, RobotReport, WireError, WirePlan,
+    self, Greeting, Introduction, NetworkError, NetworkPlan, RobotEnd, RobotProcess, RobotReport,
 };
+use touchline::game::requests::{Request, Requests, RobotChange};
 use touchline::game::{Match, MatchPlan};
 use touchline::ids::RobotId;
+use touchline::robot::{Restart, RobotFailure};
 
 use super::{HOME_0, HOME_1, address_of, datagram, figures, greet, open, stranger, talkative};
 use crate::support::digest_of;
 
-fn with_remote(plan: MatchPlan, remote: &[RobotId]) -> MatchPlan {
-    let wires = WirePlan { udp: true, remote: remote.to_vec(), ..WirePlan::default() };
-    MatchPlan { wires, ..plan }
+pub(super) fn with_remote(plan: MatchPlan, remote: &[RobotId]) -> MatchPlan {
+    let network = NetworkPlan { udp: true, remote: remote.to_vec(), ..NetworkPlan::default() };
+    MatchPlan { network, ..plan }
 }
 
 /// A robot that plays in a thread of its own until it is told to stop.
-struct Elsewhere {
+pub(super) struct Elsewhere {
     stops: Arc<AtomicBool>,
-    thread: Option<JoinHandle<Result<RobotReport, WireError>>>,
+    thread: Option<JoinHandle<Result<RobotReport, NetworkError>>>,
 }
 
 impl Elsewhere {
-    fn start(plan: &MatchPlan, robot: RobotId) -> Elsewhere {
+    pub fn start(plan: &MatchPlan, robot: RobotId) -> Elsewhere {
         let (plan, stops) = (plan.clone(), Arc::new(AtomicBool::new(false)));
         let stopped = stops.clone();
         let play = move || {
@@ -40,11 +42,11 @@ impl Elsewhere {
         Elsewhere { stops, thread: Some(std::thread::spawn(play)) }
     }
 
-    fn end(&mut self) -> Result<RobotReport, WireError> {
+    fn end(&mut self) -> Result<RobotReport, NetworkError> {
         self.thread.take().expect("it was not ended yet").join().expect("it does not panic")
     }
 
-    fn stop(&mut self) -> RobotReport {
+    pub fn stop(&mut self) -> RobotReport {
         self.stops.store(true, Ordering::Relaxed);
         self.end().expect("it belongs to the match")
     }
@@ -72,7 +74,7 @@ fn until_it_is_missed(game: &mut Match) {
 }
 
 /// The next message that reaches a socket.
-fn next_message(socket: &UdpSocket) -> Option<ExternalMessage> {
+pub(super) fn next_message(socket: &UdpSocket) -> Option<ExternalMessage> {
     socket.set_read_timeout(Some(Duration::from_millis(20))).expect("sockets can do that");
     let mut bytes = [0; 2000];
     let length = socket.recv(&mut bytes).ok()?;
@@ -88,6 +90,26 @@ fn a_match_and_a_robot_that_is_told_to_stop_report_what_they_have_done_so_far() 
     let report = robot.stop();
     assert_eq!((report.robot, report.ending), (HOME_1, RobotEnd::Stopped));
     assert!(report.answered >= answered(&game) && answered(&game) > 0, "{report:?}");
+}
+
+#[test]
+fn a_robot_elsewhere_hears_what_is_asked_of_its_mind() {
+    let (mut game, plan) = open(&with_remote(talkative(0.5), &[HOME_1]));
+    let _robot = Elsewhere::start(&plan, HOME_1);
+    greet(&mut game);
+    // A tick for the answer that tells of it, and one more for an answer that comes late.
+    let mut says = |change: Option<RobotChange>, count: u32| {
+        if let Some(change) = change {
+            game.world_mut().resource_mut::<Requests>().ask(Request::Robot(HOME_1, change));
+            ticks(&mut game, 2);
+        }
+        let before = net::remote_figures(game.world())[0].sent;
+        ticks(&mut game, count);
+        net::remote_figures(game.world())[0].sent > before
+    };
+    assert!(says(None, 120), "it talks");
+    assert!(!says(Some(RobotChange::Fail(RobotFailure::Crashed)), 120), "its computer is off");
+    assert!(says(Some(RobotChange::Revive(Restart::Lost)), 120), "it is on again");
 }
 
 #[test]
@@ -144,7 +166,7 @@ fn who_comes_back_with_another_strategy_is_refused_and_the_match_goes_on() {
     };
     assert!(refusal.contains("the strategy of home differs"), "{refusal}");
     let error = back.end().expect_err("it is another");
-    assert!(matches!(error, WireError::OtherMatch { robot: HOME_1, .. }), "{error}");
+    assert!(matches!(error, NetworkError::OtherMatch { robot: HOME_1, .. }), "{error}");
 }
 
 #[test]

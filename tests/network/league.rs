@@ -5,7 +5,7 @@ use std::net::{IpAddr, Ipv4Addr, UdpSocket};
 
 use touchline::comms::tcm::counters::Dropped;
 use touchline::comms::tcm::{MessageBudgets, Tcm};
-use touchline::game::net::WirePlan;
+use touchline::game::net::NetworkPlan;
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::world::gamecontroller::control::Version;
@@ -29,13 +29,13 @@ fn ears(last: u8) -> (IpAddr, [UdpSocket; 2]) {
 /// A match between talkative teams that keeps to the limits of a version, played for a minute, and what the box has heard.
 fn played(version: Version, udp: bool, last: u8) -> (Match, [Vec<usize>; 2]) {
     let (host, sockets) = ears(last);
-    let wires = WirePlan { league_ports: Some(host), version, ..WirePlan::default() };
+    let network = NetworkPlan { league_ports: Some(host), version, ..NetworkPlan::default() };
     let teams = Some("hammerheads_swap".to_owned());
     let choice =
-        Choice { home: teams.clone(), away: teams, seed: 7, wires: Box::new(wires), ..Choice::default() };
+        Choice { home: teams.clone(), away: teams, seed: 7, network: Box::new(network), ..Choice::default() };
     let plan = MatchPlan::read(&assets(), &choice).expect("the shipped match is sound");
-    let wires = WirePlan { udp, ..plan.wires.clone() };
-    let (mut game, _) = open(&MatchPlan { wires, ..plan });
+    let network = NetworkPlan { udp, ..plan.network.clone() };
+    let (mut game, _) = open(&MatchPlan { network, ..plan });
     let mut heard = [vec![], vec![]];
     for _ in 0..3_600 {
         game.tick();
@@ -86,9 +86,9 @@ fn over_sockets_the_box_hears_what_the_robots_hear() {
 #[test]
 fn messages_are_cut_into_datagrams_that_the_league_allows() {
     for (version, longest) in Version::ALL.into_iter().zip([128, 512, 512]) {
-        let wires =
-            WirePlan { league_ports: Some(Ipv4Addr::LOCALHOST.into()), version, ..WirePlan::default() };
-        let choice = Choice { wires: Box::new(wires), ..Choice::default() };
+        let network =
+            NetworkPlan { league_ports: Some(Ipv4Addr::LOCALHOST.into()), version, ..NetworkPlan::default() };
+        let choice = Choice { network: Box::new(network), ..Choice::default() };
         let plan = MatchPlan::read(&assets(), &choice).expect("the shipped files are sound");
         assert_eq!(plan.tcm.datagram, longest, "{version:?}");
     }

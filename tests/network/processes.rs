@@ -10,7 +10,7 @@ use serde_json::Value;
 use touchline::comms::tcm::udp::UdpError;
 use touchline::comms::tcm::{Directory, HOST, Peer};
 use touchline::game::MatchPlan;
-use touchline::game::net::{self, Greeting, WireError, WirePlan};
+use touchline::game::net::{self, Greeting, NetworkError, NetworkPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::robot::SteeringIntent;
 use touchline::world::referee::Phase;
@@ -197,8 +197,8 @@ fn a_match_between_processes_is_played_to_its_end_and_no_datagram_is_lost() {
 
 #[test]
 fn a_match_whose_remote_robot_dies_goes_on_to_its_end_and_the_robot_stands() {
-    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
-    let plan = MatchPlan { wires: remote, ..talkative(0.02) };
+    let remote = NetworkPlan { udp: true, remote: vec![HOME_1], ..NetworkPlan::default() };
+    let plan = MatchPlan { network: remote, ..talkative(0.02) };
     let (mut game, mut robot) = loop {
         let (game, plan) = open(&plan);
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -262,8 +262,8 @@ fn a_robot_that_no_match_greets_says_so() {
 
 #[test]
 fn a_robot_of_another_strategy_is_refused_with_one_line_on_either_side() {
-    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
-    let (mut game, plan) = open(&MatchPlan { wires: remote, ..talkative(0.1) });
+    let remote = NetworkPlan { udp: true, remote: vec![HOME_1], ..NetworkPlan::default() };
+    let (mut game, plan) = open(&MatchPlan { network: remote, ..talkative(0.1) });
     let folder = tempfile::tempdir().expect("a temporary folder");
     let addresses = write_addresses(&plan, folder.path());
     let other = ["robot", "--team", "home", "--number", "1", "--home", "ball_chasers", "--seed", "7"];
@@ -292,8 +292,8 @@ fn a_robot_of_another_strategy_is_refused_with_one_line_on_either_side() {
 
 #[test]
 fn a_robot_whose_match_is_gone_ends_with_its_report_and_one_line() {
-    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
-    let (mut game, plan) = open(&MatchPlan { wires: remote, ..talkative(0.1) });
+    let remote = NetworkPlan { udp: true, remote: vec![HOME_1], ..NetworkPlan::default() };
+    let (mut game, plan) = open(&MatchPlan { network: remote, ..talkative(0.1) });
     let folder = tempfile::tempdir().expect("a temporary folder");
     let addresses = write_addresses(&plan, folder.path());
     let robot = ["robot", "--json", "--team", "home", "--number", "1", "--patience", "3"];
@@ -324,12 +324,12 @@ fn a_second_match_on_the_same_ports_says_which_port_is_taken() {
 
 #[test]
 fn a_match_needs_an_address_of_its_own_for_robots_elsewhere() {
-    let remote = WirePlan { udp: true, remote: vec![HOME_1], ..WirePlan::default() };
-    let plan = MatchPlan { wires: remote, ..talkative(0.1) };
+    let remote = NetworkPlan { udp: true, remote: vec![HOME_1], ..NetworkPlan::default() };
+    let plan = MatchPlan { network: remote, ..talkative(0.1) };
     let (mut game, plan) = open(&plan);
     let without = plan.directory().entries().filter(|(who, _)| *who != HOST).collect();
     let plan = MatchPlan { addresses: Some(without), ..plan };
     let error = net::open(game.world_mut(), &plan).expect_err("it has none");
-    assert!(!matches!(error, WireError::Udp(UdpError::Bind { .. })), "{error}");
+    assert!(!matches!(error, NetworkError::Udp(UdpError::Bind { .. })), "{error}");
     assert!(error.to_string().contains("computer 255 has no address"), "{error}");
 }

@@ -3,8 +3,8 @@
 use std::net::{Ipv4Addr, SocketAddr, UdpSocket};
 
 use bevy::prelude::*;
-use touchline::game::net::WirePlan;
-use touchline::game::requests::{Request, Requests, Shove};
+use touchline::game::net::NetworkPlan;
+use touchline::game::requests::{BodyChange, Request, Requests};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
@@ -13,9 +13,9 @@ use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
 use touchline::robot::{OffPitch, Orders, RobotState};
 use touchline::world::gamecontroller::BoxNews;
-use touchline::world::gamecontroller::announcement::{Sentence, Standing};
+use touchline::world::gamecontroller::announcement::MatchAnnouncement;
 use touchline::world::gamecontroller::control::{ControlPacket, GamePhase, Penalty, SetPlay, State, Version};
-use touchline::world::gamecontroller::referee_box::Heard;
+use touchline::world::gamecontroller::referee_box::{BoxView, PacketCounts, Penalised};
 use touchline::world::gamecontroller::status::{PORT, STATUS_LEN, StatusPacket};
 use touchline::world::referee::{Decision, Phase, Whistles};
 
@@ -31,31 +31,31 @@ mod program;
 const TEAMS: [u8; 2] = [12, 34];
 
 /// A match and the box that referees it.
-struct Refereed {
-    game: Match,
+pub(super) struct Refereed {
+    pub game: Match,
+    pub plan: MatchPlan,
     socket: UdpSocket,
     to: SocketAddr,
-    says: Standing,
+    says: MatchAnnouncement,
     /// Says the same twice a second, once it has said anything.
     speaks: bool,
 }
 
 impl Refereed {
-    fn new(plan: MatchPlan) -> Refereed {
+    pub fn new(plan: MatchPlan) -> Refereed {
         // Any address here is moved to a free one.
         let gamecontroller = Some(SocketAddr::from((Ipv4Addr::LOCALHOST, 0)));
-        let plan = MatchPlan { wires: WirePlan { gamecontroller, ..plan.wires }, ..plan };
+        let plan = MatchPlan { network: NetworkPlan { gamecontroller, ..plan.network }, ..plan };
         let players = plan.teams[0].strategy.players.len() as u8;
         let (game, plan) = open(&plan);
-        let says = Standing {
-            kicking: Some(0),
-            seconds_left: 600.0,
+        let says = MatchAnnouncement {
+            view: BoxView { kicking: Some(0), seconds_left: 600, ..BoxView::default() },
             team_numbers: TEAMS,
             players_per_team: players,
-            ..Standing::default()
+            ..MatchAnnouncement::default()
         };
-        let to = plan.wires.gamecontroller.expect("it was asked for");
-        Refereed { game, socket: stranger(), to, says, speaks: false }
+        let to = plan.network.gamecontroller.expect("it was asked for");
+        Refereed { game, plan, socket: stranger(), to, says, speaks: false }
     }
 
     /// The same, with the ball in play.
@@ -66,15 +66,15 @@ impl Refereed {
     }
 
     /// The box leads the match to where the ball is in play.
-    fn begin(&mut self) {
+    pub fn begin(&mut self) {
         for state in [State::Initial, State::Ready, State::Set, State::Playing] {
             self.say(|says| says.state = state);
         }
     }
 
     /// The box says something else, and the match hears it in a tick.
-    fn say(&mut self, change: impl FnOnce(&mut Standing)) {
-        change(&mut self.says);
+    pub fn say(&mut self, change: impl FnOnce(&mut BoxView)) {
+        change(&mut self.says.view);
         self.speak();
         self.silence(1);
     }
@@ -85,12 +85,12 @@ impl Refereed {
         self.send(&self.says.packet().write());
     }
 
-    fn send(&self, bytes: &[u8]) {
+    pub fn send(&self, bytes: &[u8]) {
         self.socket.send_to(bytes, self.to).expect("it is sent");
     }
 
     /// So many ticks in which the box goes on speaking.
-    fn ticks(&mut self, ticks: u64) {
+    pub fn ticks(&mut self, ticks: u64) {
         for _ in 0..ticks {
             if self.speaks && self.game.clock().tick.is_multiple_of(30) {
                 self.speak();
@@ -108,8 +108,8 @@ impl Refereed {
         self.game.state().phase
     }
 
-    fn heard(&self) -> Heard {
-        self.game.world().resource::<BoxNews>().heard
+    fn heard(&self) -> PacketCounts {
+        self.game.world().resource::<BoxNews>().heard()
     }
 
     /// What the referee tells a robot, and whether it is off the pitch.
@@ -153,7 +153,7 @@ impl Refereed {
 
 /// Puts the ball somewhere to rest.
 pub(super) fn put_ball(game: &mut Match, at: Vec2) {
-    let put = Request::Body(Shove::Ball { at, velocity: Vec2::ZERO });
+    let put = Request::Body(BodyChange::Ball { at, velocity: Vec2::ZERO });
     game.world_mut().resource_mut::<Requests>().ask(put);
 }
 
@@ -171,7 +171,7 @@ fn a_box_leads_a_match_through_its_states_to_its_end() {
             refereed.say(|says| {
                 says.left = usize::from(half == 2);
                 (says.state, says.first_half, says.kicking) = (state, half == 1, Some(kicking));
-                says.seconds_left = 500.0 - f64::from(phase as u8);
+                says.seconds_left = 500 - phase as i16;
             });
             let is = refereed.game.state();
             let expected = 500.0 - f64::from(phase as u8);
@@ -222,14 +222,15 @@ fn a_ball_in_the_goal_is_a_goal_when_the_box_says_so() {
 fn what_is_no_packet_about_this_match_is_counted_and_not_followed() {
     let mut refereed = Refereed::playing(talkative(10.0));
     let before = refereed.heard();
-    assert_eq!(before, Heard { news: 4, ..Heard::default() });
-    let over = Standing { state: State::Finished, first_half: false, ..refereed.says.clone() };
-    let over = Standing { packet_number: over.packet_number + 1, score: [9, 9], ..over };
-    let elsewhere = Standing { team_numbers: [12, 35], ..over.clone() }.packet().write();
+    assert_eq!(before, PacketCounts { news: 4, ..PacketCounts::default() });
+    let (says, first_half) = (refereed.says.clone(), false);
+    let view = BoxView { state: State::Finished, first_half, score: [9, 9], ..says.view.clone() };
+    let over = MatchAnnouncement { packet_number: says.packet_number + 1, view, ..says.clone() };
+    let elsewhere = MatchAnnouncement { team_numbers: [12, 35], ..over.clone() }.packet().write();
     let version = [b"RGme\x15", &over.packet().write()[5..]].concat();
     let whole = over.packet().write();
     let short = &whole[..whole.len() - 1];
-    let late = Standing { packet_number: refereed.says.packet_number - 1, ..over.clone() }.packet().write();
+    let late = MatchAnnouncement { packet_number: says.packet_number - 1, ..over.clone() }.packet().write();
     for bytes in [&b"hello"[..], &version, short, &elsewhere, &late] {
         refereed.send(bytes);
     }
@@ -238,7 +239,8 @@ fn what_is_no_packet_about_this_match_is_counted_and_not_followed() {
     refereed.silence(1);
     let state = refereed.game.state();
     assert_eq!((state.phase, state.half, state.score), (Phase::Playing, 1, [0, 0]));
-    let expected = Heard { not_ours: 1, version: 1, length: 1, teams: 1, sender: 1, stale: 1, ..before };
+    let expected =
+        PacketCounts { not_ours: 1, version: 1, length: 1, teams: 1, sender: 1, stale: 1, ..before };
     assert_eq!(refereed.heard(), expected);
 }
 
@@ -322,13 +324,13 @@ fn a_match_under_a_box_is_announced_with_the_stops_set_plays_phases_and_penaltie
     let ears = stranger();
     ears.set_nonblocking(true).expect("sockets can do that");
     let announce = Some(ears.local_addr().expect("it is bound"));
-    let wires = WirePlan { announce, ..WirePlan::default() };
-    let mut refereed = Refereed::playing(MatchPlan { wires, ..talkative(10.0) });
-    let pushed = Sentence { side: 1, player: 2, penalty: Penalty::Pushing, seconds_left: 17.0 };
+    let network = NetworkPlan { announce, ..NetworkPlan::default() };
+    let mut refereed = Refereed::playing(MatchPlan { network, ..talkative(10.0) });
+    let pushed = Penalised { player: 2, penalty: Penalty::Pushing, seconds_left: 17 };
     refereed.say(|says| {
         (says.set_play, says.stopped, says.kicking) = (SetPlay::CornerKick, true, Some(1));
-        (says.secondary_time, says.seconds_left) = (31.0, -2.0);
-        says.penalties = vec![pushed];
+        (says.secondary_time, says.seconds_left) = (31, -2);
+        says.penalties[1] = vec![pushed];
     });
     refereed.ticks(60);
     let last = std::iter::from_fn(|| next(&ears)).last().expect("it is announced");

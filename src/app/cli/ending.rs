@@ -8,7 +8,7 @@ use serde::Serialize;
 use thiserror::Error;
 
 use crate::data::DataError;
-use crate::game::net::WireError;
+use crate::game::net::NetworkError;
 
 /// How a command ended, as its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,8 +54,8 @@ pub(super) enum CommandError {
     File { path: PathBuf, source: io::Error },
 }
 
-impl From<WireError> for CommandError {
-    fn from(error: WireError) -> CommandError {
+impl From<NetworkError> for CommandError {
+    fn from(error: NetworkError) -> CommandError {
         CommandError::Input(error.into())
     }
 }

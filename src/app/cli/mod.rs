@@ -1,12 +1,12 @@
 //! The command line. One file a subcommand; `ending` alone says how commands end.
 
+mod box_report;
 mod check;
 mod ending;
 mod interrupt;
 mod kinds;
 mod options;
 mod play;
-mod referee_box;
 mod robot;
 mod run;
 mod whole_file;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::{ArgGroup, Args};
 
 use crate::data::{AssetFolder, DataError};
-use crate::game::net::{self, WirePlan};
+use crate::game::net::{self, NetworkPlan};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
 use crate::rng::{DEFAULT_SEED, LARGEST_SEED};
@@ -133,23 +133,23 @@ impl HostOptions {
     /// # Errors
     /// If options contradict each other, or one has no effect.
     pub fn choice(&self, of: &MatchOptions, seed: &SeedOption) -> Result<Choice, DataError> {
-        let wires = self.wires()?;
-        if of.patience.is_some() && wires.remote.is_empty() {
+        let network = self.network()?;
+        if of.patience.is_some() && network.remote.is_empty() {
             return Err(DataError::new("--patience", "has no effect on a match without `--remote`"));
         }
-        if of.addresses.is_some() && !wires.udp {
+        if of.addresses.is_some() && !network.udp {
             let message = "has no effect on a simulated radio: add `--radio udp` or `--remote`";
             return Err(DataError::new("--addresses", message));
         }
         Ok(Choice {
             radio: self.radio.clone().filter(|radio| radio != UDP),
-            wires: Box::new(wires),
+            network: Box::new(network),
             half_minutes: self.minutes,
             ..of.choice(seed)
         })
     }
 
-    fn wires(&self) -> Result<WirePlan, DataError> {
+    fn network(&self) -> Result<NetworkPlan, DataError> {
         let HostOptions { remote, gamecontroller, announce, .. } = self;
         if let Some(twice) = remote.iter().enumerate().find(|(i, robot)| remote[..*i].contains(robot)) {
             return Err(DataError::new("--remote", format!("{} is given twice", twice.1)));
@@ -159,7 +159,7 @@ impl HostOptions {
                 format!("`{radio}` does not reach robots of other processes; `--remote` needs `udp`");
             return Err(DataError::new("--radio", message));
         }
-        Ok(WirePlan {
+        Ok(NetworkPlan {
             udp: self.radio.as_deref() == Some(UDP) || !remote.is_empty(),
             remote: remote.clone(),
             gamecontroller: *gamecontroller,

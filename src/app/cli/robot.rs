@@ -10,7 +10,7 @@ use super::interrupt::Interrupt;
 use super::options::{MatchOptions, SeedOption};
 use crate::comms::tcm::Peer;
 use crate::data::AssetFolder;
-use crate::game::net::{RobotEnd, RobotProcess, RobotReport, WireError};
+use crate::game::net::{NetworkError, RobotEnd, RobotProcess, RobotReport};
 use crate::ids::{RobotId, Team};
 
 #[derive(Args, Debug)]
@@ -51,7 +51,7 @@ impl RobotCommand {
         plan.check_robot("--number", Some(id))?;
         let peer = Peer::from(id);
         let bind = self.bind.or_else(|| plan.directory().address_of(peer));
-        let bind = bind.ok_or(WireError::NoAddress(peer))?;
+        let bind = bind.ok_or(NetworkError::NoAddress(peer))?;
         let interrupt = Interrupt::listen();
         let patience = self.options.patience();
         let report = RobotProcess::open(&plan, id, bind)?.play(patience, &|| interrupt.is_asked())?;

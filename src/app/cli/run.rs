@@ -7,10 +7,10 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 
+use super::box_report::BoxReport;
 use super::ending::{CommandError, Ending, tell};
 use super::interrupt::Interrupt;
 use super::options::{HostOptions, MatchOptions, SeedOption};
-use super::referee_box::BoxReport;
 use crate::comms::radio::{LinkCounters, RadioRecord};
 use crate::comms::tcm::{MessageBudgets, Spent};
 use crate::data::{AssetFolder, in_one_line};
@@ -190,7 +190,7 @@ fn play_on(
 ) -> Result<(), CommandError> {
     let bar = progress(plan);
     while !game.is_over() && !interrupt.is_asked() {
-        if net::is_in_real_time(plan) {
+        if plan.network.is_in_real_time() {
             wait_until(started + Duration::from_secs_f64(game.clock().now()));
         }
         game.tick();

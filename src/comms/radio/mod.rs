@@ -86,7 +86,7 @@ pub(crate) fn deliver_datagrams(
     for (entity, InFlight { id, packet, .. }) in due {
         commands.entity(entity).despawn();
         let to = robots.iter().find(|(id, _)| **id == packet.to);
-        if to.is_some_and(|(_, robot)| robot.condition.hears()) {
+        if to.is_some_and(|(_, robot)| robot.health.hears()) {
             record.delivered(*id, packet, clock.tick);
             incoming.0.push((packet.to, packet.bytes.clone()));
         } else {
@@ -110,7 +110,7 @@ pub(crate) fn transmit_datagrams(
         let (Some((_, sender, from)), Some((.., to))) = (robot(packet.from), robot(packet.to)) else {
             continue;
         };
-        if sender.condition.mute {
+        if sender.health.mute {
             radio.record.drop_muted(&packet, clock.tick);
         } else {
             let distance = from.position.distance(to.position);

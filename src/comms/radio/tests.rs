@@ -8,7 +8,7 @@ use crate::comms::messages::{self, HaveBall, Inbox, Received, TeamMessage};
 use crate::comms::tcm::{self, Addresses, Directory, Tcm, TcmClient, TcmSettings};
 use crate::ids::Team::{Away, Home};
 use crate::rng::Seed;
-use crate::robot::Ailment;
+use crate::robot::RobotFailure;
 use crate::schedule;
 use crate::testing::{cye, perfect_radio};
 
@@ -107,7 +107,7 @@ fn a_robot_that_fell_deaf_while_a_message_was_in_flight_does_not_hear_it() {
     tick(&mut app);
     let mut robots = app.world_mut().query::<(&RobotId, &mut Robot)>();
     for (_, mut robot) in robots.iter_mut(app.world_mut()).filter(|(id, _)| **id == home(1)) {
-        robot.condition = robot.condition.with(Ailment::Deaf);
+        robot.health = robot.health.with(RobotFailure::Deaf);
     }
     tick(&mut app);
     assert_eq!((heard(&mut app, home(1)), heard(&mut app, home(2))), (vec![], vec![7]));

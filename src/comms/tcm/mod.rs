@@ -156,7 +156,7 @@ fn send_messages(
     }
     for (id, robot, mut client, mut tcm) in robots.iter_mut().sort::<&RobotId>() {
         // What a mute robot says never goes on air, and costs nothing.
-        let mute = robot.is_some_and(|robot| robot.condition.mute);
+        let mute = robot.is_some_and(|robot| robot.health.mute);
         let mut budgets = budgets.as_deref_mut().filter(|_| !mute);
         for (module, data_type) in client.dropped.drain(..) {
             tcm.counters.dropped(module, data_type, Dropped::QueueFull);

@@ -9,9 +9,9 @@ use crate::geometry::Attacking;
 use crate::ids::{RobotId, Team};
 use crate::strategy::{Role, Strategies};
 use crate::world::gamecontroller::BoxNews;
-use crate::world::gamecontroller::announcement::{Sentence, Standing};
+use crate::world::gamecontroller::announcement::{MatchAnnouncement, penalty_seconds, whole_seconds};
 use crate::world::gamecontroller::control::{Penalty, State};
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::{BoxView, Penalised};
 use crate::world::referee::{
     Decision, DefenderRule, MatchState, Phase, Removal, RemovalReason, RuleBook, Whistles,
 };
@@ -21,53 +21,54 @@ use crate::world::referee::{
 const KICK_OFF: f64 = 10.0;
 
 /// What there is to announce now. Version, packet number and team numbers are the announcer's.
-pub(super) fn standing(world: &mut World) -> Standing {
+pub(super) fn announcement(world: &mut World) -> MatchAnnouncement {
     let goalkeepers = goalkeepers(world);
     let state = world.resource::<MatchState>();
     let driven = &world.resource::<Record>().driven;
     let budgets = world.get_resource::<MessageBudgets>();
-    let ours = Standing {
-        goalkeepers,
-        players_per_team: driven.iter().map(|(robot, _)| robot.number + 1).max().unwrap_or(0),
-        message_budgets: Team::BOTH.map(|team| budgets.map_or(0, |budgets| budgets.left(team))),
-        ..refereed(
+    let view = match world.get_resource::<BoxNews>().and_then(|news| news.view.as_ref()) {
+        Some(view) => followed(view, state),
+        None => refereed(
             state,
             world.resource::<RuleBook>(),
             world.resource::<Whistles>(),
             world.resource::<Clock>(),
-        )
+        ),
     };
-    match world.get_resource::<BoxNews>().and_then(|news| news.view.as_ref()) {
-        Some(view) => followed(view, &state.removed, ours),
-        None => ours,
+    MatchAnnouncement {
+        view,
+        goalkeepers,
+        players_per_team: driven.iter().map(|(robot, _)| robot.number + 1).max().unwrap_or(0),
+        message_budgets: Team::BOTH.map(|team| budgets.map_or(0, |budgets| budgets.left(team))),
+        ..MatchAnnouncement::default()
     }
 }
 
 /// The end of a half and the wait for the next, which take no time in our matches: what a box says between the play of
 /// the first half and the walk to the places of the second.
-pub(super) fn half_time(second: &Standing) -> [Standing; 2] {
-    let first = Standing {
+pub(super) fn half_time(second: &BoxView) -> [BoxView; 2] {
+    let first = BoxView {
         state: State::Finished,
         first_half: true,
         left: 1 - second.left,
         kicking: None,
-        seconds_left: 0.0,
-        secondary_time: 0.0,
+        seconds_left: 0,
+        secondary_time: 0,
         ..second.clone()
     };
-    let interval = Standing { state: State::Initial, secondary_time: 0.0, ..second.clone() };
+    let interval = BoxView { state: State::Initial, secondary_time: 0, ..second.clone() };
     [first, interval]
 }
 
 /// Where a match stands that our own referee referees.
-fn refereed(state: &MatchState, book: &RuleBook, whistles: &Whistles, clock: &Clock) -> Standing {
+fn refereed(state: &MatchState, book: &RuleBook, whistles: &Whistles, clock: &Clock) -> BoxView {
     let kick_off = kick_off_left(state, whistles, clock);
     let owns_ball = match state.phase {
         Phase::Initial | Phase::Ready | Phase::Set => true,
         Phase::Playing => kick_off.is_some(),
         Phase::Finished => false,
     };
-    Standing {
+    BoxView {
         state: match state.phase {
             Phase::Initial => State::Initial,
             Phase::Ready => State::Ready,
@@ -78,41 +79,35 @@ fn refereed(state: &MatchState, book: &RuleBook, whistles: &Whistles, clock: &Cl
         first_half: state.half == 1,
         left: left(state),
         kicking: owns_ball.then_some(state.kick_off.index()),
-        seconds_left: state.time_left,
-        secondary_time: state.ready_left(book).or(kick_off).unwrap_or(0.0),
+        seconds_left: whole_seconds(state.time_left),
+        secondary_time: whole_seconds(state.ready_left(book).or(kick_off).unwrap_or(0.0)),
         score: state.score,
-        penalties: state.removed.iter().map(|removal| sentence(removal, penalty(removal.reason))).collect(),
-        ..Standing::default()
+        penalties: penalties(state, |_| true),
+        ..BoxView::default()
     }
 }
 
-/// The state of a match that a referee box referees, as the box says. Robots that were taken off otherwise are told, too.
-fn followed(view: &View, removed: &[Removal], ours: Standing) -> Standing {
-    let by_the_box = |side: usize| {
-        view.penalties[side].iter().map(move |penalised| Sentence {
-            side,
-            player: penalised.player,
-            penalty: penalised.penalty,
-            seconds_left: f64::from(penalised.seconds_left),
-        })
-    };
-    let by_others = removed.iter().filter(|removal| removal.reason != RemovalReason::RefereeBox);
-    Standing {
-        game_phase: view.game_phase,
-        state: view.state,
-        set_play: view.set_play,
-        stopped: view.stopped,
-        first_half: view.first_half,
-        kicking: view.kicking,
-        seconds_left: f64::from(view.seconds_left),
-        secondary_time: f64::from(view.secondary_time),
-        score: view.score,
-        penalties: by_others
-            .map(|removal| sentence(removal, penalty(removal.reason)))
-            .chain((0..2).flat_map(by_the_box))
-            .collect(),
-        ..ours
+/// Where a match stands that a referee box referees: as the box says. Who was taken off otherwise is told, too.
+fn followed(view: &BoxView, state: &MatchState) -> BoxView {
+    let mut penalties = penalties(state, |reason| reason != RemovalReason::RefereeBox);
+    for (told, by_the_box) in penalties.iter_mut().zip(&view.penalties) {
+        told.extend(by_the_box);
     }
+    BoxView { left: left(state), penalties, ..view.clone() }
+}
+
+/// The robots that are off the field for such a reason, by side.
+fn penalties(state: &MatchState, is_told: impl Fn(RemovalReason) -> bool) -> [Vec<Penalised>; 2] {
+    Team::BOTH.map(|team| {
+        let off =
+            state.removed.iter().filter(|removal| removal.robot.team == team && is_told(removal.reason));
+        let penalised = |removal: &Removal| Penalised {
+            player: removal.robot.number,
+            penalty: penalty(removal.reason),
+            seconds_left: penalty_seconds(removal.seconds_left),
+        };
+        off.map(penalised).collect()
+    })
 }
 
 /// The side that defends the left goal, which is the western one.
@@ -130,11 +125,6 @@ fn kick_off_left(state: &MatchState, whistles: &Whistles, clock: &Clock) -> Opti
     let left = KICK_OFF - clock.tick.saturating_sub(begun) as f64 * f64::from(clock.dt);
     let waits = state.phase == Phase::Playing && state.last_touch.is_none() && left > 0.0;
     waits.then_some(left)
-}
-
-fn sentence(removal: &Removal, penalty: Penalty) -> Sentence {
-    let RobotId { team, number: player } = removal.robot;
-    Sentence { side: team.index(), player, penalty, seconds_left: removal.seconds_left }
 }
 
 /// The league's penalty that comes nearest to a reason of our referee.
@@ -168,7 +158,6 @@ fn goalkeepers(world: &mut World) -> [Option<u8>; 2] {
 mod tests {
     use super::*;
     use crate::world::gamecontroller::control::{GamePhase, SetPlay};
-    use crate::world::gamecontroller::referee_box::Penalised;
 
     const HOME_1: RobotId = RobotId::new(Team::Home, 1);
     const AWAY_3: RobotId = RobotId::new(Team::Away, 3);
@@ -185,7 +174,7 @@ mod tests {
         (state, whistles, Clock { tick: 40 + ticks, ..Clock::default() })
     }
 
-    fn told((state, whistles, clock): &(MatchState, Whistles, Clock)) -> Standing {
+    fn told((state, whistles, clock): &(MatchState, Whistles, Clock)) -> BoxView {
         refereed(state, &RuleBook::default(), whistles, clock)
     }
 
@@ -202,31 +191,30 @@ mod tests {
         ] {
             let mut game = in_play(0);
             game.0.removed = vec![off(AWAY_3, reason, 12.5)];
-            let expected = Sentence { side: 1, player: 3, penalty, seconds_left: 12.5 };
-            assert_eq!(told(&game).penalties, [expected], "{reason:?}");
+            let expected = Penalised { player: 3, penalty, seconds_left: 13 };
+            assert_eq!(told(&game).penalties, [vec![], vec![expected]], "{reason:?}");
         }
     }
 
     #[test]
     fn a_team_has_the_ball_for_ten_seconds_after_its_kick_off_or_until_somebody_touches_it() {
-        for (ticks, kicking, seconds) in [(0, Some(0), 10.0), (300, Some(0), 5.0), (600, None, 0.0)] {
-            let standing = told(&in_play(ticks));
-            assert_eq!(standing.kicking, kicking, "{ticks}");
-            assert!((standing.secondary_time - seconds).abs() < 1e-4, "{ticks}: {}", standing.secondary_time);
+        for (ticks, kicking, seconds) in [(0, Some(0), 10), (300, Some(0), 5), (600, None, 0)] {
+            let view = told(&in_play(ticks));
+            assert_eq!((view.kicking, view.secondary_time), (kicking, seconds), "{ticks}");
         }
         let mut game = in_play(300);
         game.0.last_touch = Some(AWAY_3);
-        assert_eq!((told(&game).kicking, told(&game).secondary_time), (None, 0.0));
+        assert_eq!((told(&game).kicking, told(&game).secondary_time), (None, 0));
     }
 
     #[test]
     fn the_time_to_walk_is_told_and_nobody_kicks_when_the_match_is_over() {
         let mut game = in_play(0);
         game.0.phase = Phase::Ready;
-        let standing = told(&game);
-        assert_eq!((standing.secondary_time, standing.kicking), (3.0, Some(0)));
+        let view = told(&game);
+        assert_eq!((view.secondary_time, view.kicking), (3, Some(0)));
         game.0.phase = Phase::Set;
-        assert_eq!((told(&game).secondary_time, told(&game).kicking), (0.0, Some(0)));
+        assert_eq!((told(&game).secondary_time, told(&game).kicking), (0, Some(0)));
         game.0.phase = Phase::Finished;
         assert_eq!(told(&game).kicking, None);
     }
@@ -247,42 +235,35 @@ mod tests {
         let ready = told(&game);
         let [end, wait] = half_time(&ready);
         assert_eq!((end.state, end.first_half, end.left, end.kicking), (State::Finished, true, 0, None));
-        assert_eq!((end.seconds_left, wait.seconds_left), (0.0, 600.0));
+        assert_eq!((end.seconds_left, wait.seconds_left), (0, 600));
         assert_eq!(
             (wait.state, wait.first_half, wait.left, wait.kicking),
             (State::Initial, false, 1, Some(1))
         );
-        assert_eq!((wait.secondary_time, ready.secondary_time), (0.0, 3.0));
+        assert_eq!((wait.secondary_time, ready.secondary_time), (0, 3));
     }
 
     #[test]
     fn a_match_under_a_box_is_told_as_the_box_tells_it() {
         let penalised = Penalised { player: 1, penalty: Penalty::MotionInStop, seconds_left: 0 };
-        let view = View {
+        let view = BoxView {
             state: State::Playing,
             game_phase: GamePhase::ExtraTime,
             set_play: SetPlay::CornerKick,
             stopped: true,
-            first_half: true,
-            left: 0,
-            kicking: None,
             score: [3, 2],
             seconds_left: -4,
             secondary_time: 27,
             penalties: [vec![penalised], vec![]],
-            missing: [vec![], vec![]],
+            ..BoxView::default()
         };
-        let removed = [
+        let (mut state, ..) = in_play(0);
+        state.removed = vec![
             off(HOME_1, RemovalReason::RefereeBox, f64::INFINITY),
             off(AWAY_3, RemovalReason::Ordered, f64::INFINITY),
         ];
-        let standing = followed(&view, &removed, told(&in_play(0)));
-        let packet = standing.packet();
-        assert_eq!((packet.game_phase, packet.set_play), (GamePhase::ExtraTime, SetPlay::CornerKick));
-        assert_eq!((packet.stopped.is_set(), packet.kicking_team), (true, None));
-        assert_eq!((packet.secs_remaining, packet.secondary_time), (-4, 27));
-        let told = |side, player, penalty, seconds_left| Sentence { side, player, penalty, seconds_left };
-        let expected = [told(1, 3, Penalty::Manual, f64::INFINITY), told(0, 1, Penalty::MotionInStop, 0.0)];
-        assert_eq!(standing.penalties, expected);
+        let manual = Penalised { player: 3, penalty: Penalty::Manual, seconds_left: 0 };
+        let told = BoxView { penalties: [vec![penalised], vec![manual]], ..view.clone() };
+        assert_eq!(followed(&view, &state), told);
     }
 }

@@ -9,11 +9,11 @@ use std::net::SocketAddr;
 use bevy::log::warn;
 use bevy::prelude::*;
 
-use super::announced::{half_time, standing};
+use super::announced::{announcement, half_time};
 use crate::clock::Clock;
 use crate::comms::tcm::udp::{UdpConn, UdpError};
 use crate::world::gamecontroller::BoxNews;
-use crate::world::gamecontroller::announcement::Standing;
+use crate::world::gamecontroller::announcement::MatchAnnouncement;
 use crate::world::gamecontroller::control::Version;
 use crate::world::referee::MatchState;
 
@@ -80,23 +80,25 @@ impl Announcer {
     /// Sends what is due.
     pub fn announce(&mut self, world: &mut World) {
         let is_half_time = self.is_half_time(world);
-        let followed = world.get_resource::<BoxNews>().and_then(|news| news.team_numbers);
+        let followed = world.get_resource::<BoxNews>().and_then(BoxNews::team_numbers);
         self.team_numbers = followed.unwrap_or(self.team_numbers);
-        let standing = standing(world);
+        let announcement = announcement(world);
         if is_half_time {
-            half_time(&standing).into_iter().for_each(|standing| self.send(standing));
+            for view in half_time(&announcement.view) {
+                self.send(MatchAnnouncement { view, ..announcement.clone() });
+            }
         }
-        self.send(standing);
+        self.send(announcement);
         self.waited = self.waited.map(|_| 0.0);
     }
 
-    fn send(&mut self, standing: Standing) {
+    fn send(&mut self, announcement: MatchAnnouncement) {
         let (version, packet_number, team_numbers) = (self.version, self.packet_number, self.team_numbers);
-        self.first_half = standing.first_half;
+        self.first_half = announcement.view.first_half;
         self.packet_number = packet_number.wrapping_add(1);
-        let standing = Standing { version, packet_number, team_numbers, ..standing };
+        let announcement = MatchAnnouncement { version, packet_number, team_numbers, ..announcement };
         // Whether anybody listens there is not known.
-        if let Err(error) = self.conn.send(self.to, &standing.packet().write()) {
+        if let Err(error) = self.conn.send(self.to, &announcement.packet().write()) {
             let trouble = format!("the match cannot be announced: {error}");
             if self.trouble.as_ref() != Some(&trouble) {
                 warn!("{trouble}");

@@ -14,26 +14,33 @@ use crate::comms::radio::{
 use crate::comms::tcm::fragments::Header;
 use crate::comms::tcm::udp::{UdpConn, UdpError};
 use crate::comms::tcm::{Addresses, Datagram, Directory, HOST, Incoming, OnAir, Peer, TcmSystems};
+use crate::game::requests::{DoorSystems, NetworkDatagram, Request, Requests};
 use crate::ids::RobotId;
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
 
-use super::WireError;
-use super::remote::DATAGRAMS_A_TICK;
+use super::error::NetworkError;
+use super::timing::{DATAGRAMS_A_TICK, Stamp};
 
 pub(super) fn plugin(app: &mut App) {
     let is_used = resource_exists::<UdpCarrier>;
     let receives = deliver.in_set(TickSystems::Deliver).before(TcmSystems::Receive);
     let sends = transmit.in_set(TickSystems::Transmit).after(TcmSystems::Send);
+    let asks = ask_for_due.in_set(DoorSystems::Ask);
     app.configure_sets(Tick, RadioSystems.run_if(not(is_used)))
+        .add_systems(Tick, asks.run_if(is_used))
         .add_systems(Tick, receives.after(deliver_datagrams).run_if(is_used))
         .add_systems(Tick, sends.after(transmit_datagrams).run_if(is_used));
 }
 
-/// The sockets of the robots that this process runs.
-#[derive(Resource)]
+/// The sockets of the robots that this process runs. A match that is played from its recorded requests has none.
+#[derive(Resource, Default)]
 pub struct UdpCarrier {
     conns: BTreeMap<RobotId, UdpConn>,
+    /// Of the match; datagrams of the robots of any other are foreign.
+    pub(super) session: u32,
+    /// Datagrams that have come and wait for the tick in which they are heard.
+    early: Vec<NetworkDatagram>,
     /// Datagrams under way between two robots of this process, the oldest first.
     under_way: VecDeque<UnderWay>,
     /// What it has carried so far.
@@ -62,6 +69,8 @@ struct UnderWay {
     sent: u64,
 }
 
+/// The datagrams that are kept for later ticks.
+const MOST_EARLY: usize = 4096;
 /// A datagram that has not arrived after this time is lost, s.
 const LOST: f32 = 1.0;
 
@@ -73,17 +82,18 @@ impl UdpCarrier {
     pub fn open(
         directory: &Directory,
         robots: impl Iterator<Item = RobotId>,
-    ) -> Result<UdpCarrier, WireError> {
+        session: u32,
+    ) -> Result<UdpCarrier, NetworkError> {
         let mut conns = BTreeMap::new();
         for robot in robots {
             let address = address_of(robot, directory)?;
             conns.insert(robot, UdpConn::bind(address)?);
         }
-        Ok(UdpCarrier::of(conns))
+        Ok(UdpCarrier { session, ..UdpCarrier::of(conns) })
     }
 
     /// Opens a socket for one more robot, at another address if its own is taken, and tells where.
-    pub(super) fn take_in(&mut self, robot: RobotId, directory: &Directory) -> Result<SocketAddr, WireError> {
+    pub(super) fn add(&mut self, robot: RobotId, directory: &Directory) -> Result<SocketAddr, NetworkError> {
         let own = address_of(robot, directory)?;
         // Any other is one that the other robots of this process can reach.
         let near = self.conns.values().next().map_or(own.ip(), |conn| conn.address().ip());
@@ -94,7 +104,7 @@ impl UdpCarrier {
     }
 
     pub(super) fn of(conns: BTreeMap<RobotId, UdpConn>) -> UdpCarrier {
-        UdpCarrier { conns, under_way: VecDeque::new(), figures: CarrierFigures::default() }
+        UdpCarrier { conns, ..UdpCarrier::default() }
     }
 
     /// The same sockets, for another match.
@@ -107,31 +117,47 @@ impl UdpCarrier {
         self.conns.get_mut(&robot)
     }
 
-    /// Takes note of a datagram that came from an address for one of our robots; tells who sent it, if it is ours.
-    pub(super) fn note(
+    /// Takes a datagram that came from an address for one of our robots and keeps it until it is heard, unless the match itself
+    /// sent it; tells who did, if it is ours.
+    pub(super) fn accept(
         &mut self,
+        to: RobotId,
         from: SocketAddr,
         bytes: &[u8],
         directory: &Directory,
-    ) -> Option<(Peer, Header)> {
-        let known = Header::read(bytes).ok().map(|(header, _)| (header.source.peer, header));
+    ) -> Option<Peer> {
+        let (stamp, bytes) = Stamp::split(bytes);
+        let known = Header::read(bytes).ok().map(|(header, _)| header.source.peer);
         // Tools may speak from anywhere; robots and the match itself from where the directory has them.
-        let sender = known.filter(|(source, _)| match source {
+        let sender = known.filter(|source| match source {
             Peer::Computer(_) if *source != HOST => true,
+            Peer::Robot { .. } if stamp.is_none_or(|stamp| stamp.session != self.session) => false,
             _ => directory.peer_at(from) == Some(*source),
         });
+        let mut sent = None;
         match sender {
-            Some((Peer::Robot { .. }, _)) => self.figures.received += 1,
+            Some(Peer::Robot { .. }) => {
+                sent = stamp.map(|stamp| stamp.tick);
+                self.figures.received += 1;
+            }
             Some(_) => self.figures.from_computers += 1,
             None => self.figures.foreign += 1,
+        }
+        if sender.is_some_and(|sender| sender != HOST) && self.early.len() < MOST_EARLY {
+            self.early.push(NetworkDatagram { to, sent, bytes: bytes.into() });
         }
         sender
     }
 
-    fn send(&mut self, datagram: &Datagram, directory: &Directory) -> Result<bool, UdpError> {
-        let Some(address) = directory.address_of(datagram.to) else { return Ok(false) };
-        let Some(conn) = self.conns.get_mut(&datagram.from) else { return Ok(false) };
-        conn.send(address, &datagram.bytes).map(|()| true)
+    fn send(&mut self, datagram: &Datagram, address: SocketAddr, tick: u64) -> Result<(), UdpError> {
+        let Some(conn) = self.conns.get_mut(&datagram.from) else { return Ok(()) };
+        match datagram.to {
+            Peer::Robot { .. } => {
+                let stamp = Stamp { session: self.session, tick };
+                conn.send(address, &stamp.before(&datagram.bytes))
+            }
+            _ => conn.send(address, &datagram.bytes),
+        }
     }
 
     /// The transmission that a packet ends, if it was sent in this process.
@@ -140,66 +166,79 @@ impl UdpCarrier {
         self.under_way.remove(place).map(|sent| sent.id)
     }
 
-    /// Counts what has arrived and was not read.
-    pub(super) fn drain(&mut self, directory: &Directory) {
+    /// Reads what has arrived for our robots.
+    pub(super) fn read_sockets(&mut self, directory: &Directory) {
         let ours: Vec<RobotId> = self.conns.keys().copied().collect();
         for robot in ours {
             for _ in 0..DATAGRAMS_A_TICK {
                 let Some((from, bytes)) = self.next(robot) else { break };
-                self.note(from, &bytes, directory);
+                self.accept(robot, from, &bytes, directory);
             }
         }
     }
 }
 
-fn address_of(robot: RobotId, directory: &Directory) -> Result<SocketAddr, WireError> {
+pub(super) fn receive(addresses: Res<Addresses>, mut carrier: ResMut<UdpCarrier>) {
+    carrier.read_sockets(&addresses.0);
+}
+
+/// Asks that datagrams be heard that have come and were sent before this tick.
+pub(super) fn ask_for_due(
+    clock: Res<Clock>,
+    mut carrier: ResMut<UdpCarrier>,
+    mut requests: ResMut<Requests>,
+) {
+    let is_due = |datagram: &mut NetworkDatagram| datagram.sent.is_none_or(|sent| sent < clock.tick);
+    for datagram in carrier.early.extract_if(.., is_due) {
+        requests.ask(Request::Datagram(datagram));
+    }
+}
+
+fn address_of(robot: RobotId, directory: &Directory) -> Result<SocketAddr, NetworkError> {
     let peer = Peer::from(robot);
-    directory.address_of(peer).ok_or(WireError::NoAddress(peer))
+    directory.address_of(peer).ok_or(NetworkError::NoAddress(peer))
 }
 
 fn deliver(
     clock: Res<Clock>,
-    addresses: Res<Addresses>,
+    requests: Res<Requests>,
     mut carrier: ResMut<UdpCarrier>,
     mut record: ResMut<RadioRecord>,
     mut incoming: ResMut<Incoming>,
     robots: Query<(&RobotId, &Robot)>,
 ) {
-    let carrier = &mut *carrier;
-    let ours: Vec<RobotId> = carrier.conns.keys().copied().collect();
-    for to in ours {
-        let hears = robots.iter().any(|(id, robot)| *id == to && robot.condition.hears());
-        for _ in 0..DATAGRAMS_A_TICK {
-            let Some((from, bytes)) = carrier.next(to) else { break };
-            let Some((source, header)) = carrier.note(from, &bytes, &addresses.0) else { continue };
-            if let Some(from) = source.robot() {
-                let packet = Packet { kind: header.data_type, from, to, bytes: bytes.clone() };
-                let id = carrier.arrived(&packet).unwrap_or_else(|| {
-                    // A robot in another process sent it, in the tick before.
-                    record.sent(&packet, &Delivery::on_time(clock.tick), clock.tick.saturating_sub(1))
-                });
-                if hears {
-                    record.delivered(id, &packet, clock.tick);
-                } else {
-                    record.lost(id, &packet, Loss::Deaf);
-                }
-            }
+    for request in requests.due() {
+        let Request::Datagram(NetworkDatagram { to, sent, bytes }) = request else { continue };
+        let Ok((header, _)) = Header::read(bytes) else { continue };
+        let hears = robots.iter().any(|(id, robot)| id == to && robot.health.hears());
+        if let Some(from) = header.source.peer.robot() {
+            let packet = Packet { kind: header.data_type, from, to: *to, bytes: bytes.clone() };
+            let id = carrier.arrived(&packet).unwrap_or_else(|| {
+                // A robot in another process sent it.
+                let sent = sent.unwrap_or(clock.tick.saturating_sub(1));
+                record.sent(&packet, &Delivery::on_time(clock.tick), sent)
+            });
             if hears {
-                incoming.0.push((to, bytes));
+                record.delivered(id, &packet, clock.tick);
+            } else {
+                record.lost(id, &packet, Loss::Deaf);
             }
         }
+        if hears {
+            incoming.0.push((*to, bytes.clone()));
+        }
     }
-    carrier.settle(&mut record, &clock);
+    let is_here = |robot: RobotId| robots.iter().any(|(id, found)| *id == robot && !found.remote);
+    carrier.settle(&mut record, &clock, is_here);
 }
 
 impl UdpCarrier {
     /// What was sent to a robot in another process is taken to have arrived, since nothing tells this one; what a robot of
     /// this process has waited for too long is lost.
-    fn settle(&mut self, record: &mut RadioRecord, clock: &Clock) {
+    fn settle(&mut self, record: &mut RadioRecord, clock: &Clock, is_here: impl Fn(RobotId) -> bool) {
         let lost = clock.ticks(LOST);
-        let conns = &self.conns;
         self.under_way.retain(|UnderWay { id, packet, sent }| {
-            if !conns.contains_key(&packet.to) {
+            if !is_here(packet.to) {
                 record.delivered(*id, packet, clock.tick);
                 return false;
             }
@@ -228,22 +267,18 @@ pub(super) fn transmit(
     record.forget(&clock);
     for datagram in on_air.0.drain(..) {
         let packet = Packet::of(&datagram);
-        if robots.iter().any(|(id, robot)| *id == datagram.from && robot.condition.mute) {
+        if robots.iter().any(|(id, robot)| *id == datagram.from && robot.health.mute) {
             if let Some(packet) = packet {
                 record.drop_muted(&packet, clock.tick);
             }
             continue;
         }
-        match carrier.send(&datagram, &addresses.0) {
-            Ok(true) => {}
-            Ok(false) => continue,
-            Err(_) => {
-                carrier.figures.refused += 1;
-                continue;
-            }
-        }
+        // What becomes of it on the network is not known, and what is not known must not matter.
+        let Some(address) = addresses.0.address_of(datagram.to) else { continue };
+        let is_refused = carrier.send(&datagram, address, clock.tick).is_err();
+        carrier.figures.refused += u64::from(is_refused);
         let Some(packet) = packet else { continue };
-        carrier.figures.sent += 1;
+        carrier.figures.sent += u64::from(!is_refused);
         let id = record.sent(&packet, &Delivery::on_time(clock.tick + 1), clock.tick);
         carrier.under_way.push_back(UnderWay { id, packet, sent: clock.tick });
     }

@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
 
-use super::WireError;
-use super::remote::{DATAGRAMS_A_TICK, RemoteRobots};
+use super::error::NetworkError;
+use super::remote_robots::RemoteRobots;
+use super::timing::DATAGRAMS_A_TICK;
 use crate::ids::RobotId;
 
 /// How often a robot that does not answer is greeted, and how often one that is not told anything.
@@ -80,7 +81,7 @@ impl RemoteRobots {
         world: &mut World,
         patience: Duration,
         goes_on: &mut dyn FnMut(&[Awaited]) -> bool,
-    ) -> Result<Greeting, WireError> {
+    ) -> Result<Greeting, NetworkError> {
         let begin = Instant::now();
         loop {
             let Greeting::Awaiting(awaited) = self.poll(world, LOOK) else { return Ok(Greeting::Done) };
@@ -90,7 +91,7 @@ impl RemoteRobots {
             if let Some(Awaited { robot, address, .. }) = awaited.first()
                 && begin.elapsed() >= patience
             {
-                return Err(WireError::Silent { robot: *robot, address: *address, patience });
+                return Err(NetworkError::Silent { robot: *robot, address: *address, patience });
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::game::MatchPlan;
 use crate::ids::RobotId;
 
 /// The version of what matches and robots say to each other; another one whenever that changes.
-const PROTOCOL: u16 = 2;
+const PROTOCOL: u16 = 3;
 
 /// What one side plays. Its layout stays the same in all versions, so that they can tell each other apart.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(one.difference(&other).as_deref(), Some("the robot differs: here home 1, there home 2"));
         let later = Introduction { protocol: PROTOCOL + 1, particulars: Vec::new(), ..one.clone() };
         let line = one.difference(&later).unwrap();
-        assert!(line.starts_with("the version differs: here ") && line.ends_with("(protocol 3)"), "{line}");
+        assert!(line.starts_with("the version differs: here ") && line.ends_with("(protocol 4)"), "{line}");
         let silent = Introduction { particulars: Vec::new(), ..one.clone() };
         assert_eq!(one.difference(&silent).as_deref(), Some("the robot is not told"));
     }

@@ -75,7 +75,7 @@ fn copy_messages(mut ports: ResMut<LeaguePorts>, on_air: Res<OnAir>, robots: Que
     let ports = &mut *ports;
     for copies in on_air.0.chunk_by(|one, other| Arc::ptr_eq(&one.bytes, &other.bytes)) {
         let Some(datagram) = copies.first() else { continue };
-        let mute = robots.iter().any(|(id, robot)| *id == datagram.from && robot.condition.mute);
+        let mute = robots.iter().any(|(id, robot)| *id == datagram.from && robot.health.mute);
         if mute {
             continue;
         }

@@ -11,7 +11,7 @@ use crate::geometry::unit;
 use crate::ids::RobotId;
 use crate::mind::world_model::WorldModel;
 use crate::robot::Robot;
-use crate::world::gamecontroller::status::{PORT, SeenBall, StatusPacket};
+use crate::world::gamecontroller::status::{PORT, StatusBall, StatusPacket};
 
 /// Remembers for each robot where it saw the ball last, in its team frame, and in which tick: a belief may be forgotten
 /// while its age grows.
@@ -36,7 +36,7 @@ impl Observers {
         let to = SocketAddr::new(sender.ip(), PORT);
         let mut robots = world.query::<(&RobotId, &Robot, &WorldModel)>();
         let mut packets: Vec<(RobotId, StatusPacket)> = (robots.iter(world))
-            .filter(|(_, robot, _)| !robot.condition.crashed && !robot.condition.mute)
+            .filter(|(_, robot, _)| !robot.health.crashed && !robot.health.mute)
             .filter(|(_, _, model)| model.is_localised())
             .map(|(id, _, model)| (*id, self.status(*id, teams[id.team.index()], model, &clock)))
             .collect();
@@ -52,7 +52,7 @@ impl Observers {
             let away = *position - model.pose.position;
             let forward = unit(model.pose.heading);
             let age = clock.tick.saturating_sub(*seen) as f32 * clock.dt;
-            SeenBall { age, x: away.dot(forward), y: away.dot(forward.perp()) }
+            StatusBall { age, x: away.dot(forward), y: away.dot(forward.perp()) }
         });
         StatusPacket {
             player_number: id.number + 1,

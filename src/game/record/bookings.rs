@@ -109,7 +109,7 @@ pub(super) fn watch_bookings(
         let Some(spec) = &strategies.of(team).teamwork.ball_booking else { continue };
         let mut bidders: SmallVec<[Bidder; 8]> = (robots.iter())
             .filter(|(id, robot, .., orders)| {
-                id.team == team && !robot.condition.crashed && orders.state == RobotState::Playing
+                id.team == team && !robot.health.crashed && orders.state == RobotState::Playing
             })
             .filter_map(|(id, _, model, booking, _)| {
                 let goes = booking.0.goes();

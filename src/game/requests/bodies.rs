@@ -3,7 +3,8 @@
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
-use super::request::{Request, Requests, Shove};
+use super::queue::Requests;
+use super::request::{BodyChange, Request};
 use crate::data::Bound;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
@@ -13,17 +14,17 @@ use crate::world::physics::Room;
 
 type Rolled<'a> = (&'a RapierRigidBodyHandle, &'a mut Pose, &'a mut Twist, &'a mut Rolling);
 
-pub(super) fn shove_bodies(
+pub(super) fn move_bodies(
     requests: Res<Requests>,
     mut room: Room,
     ball: Single<Rolled, (With<Ball>, Without<RobotId>)>,
     mut robots: Query<(&RobotId, &RobotBodies, &mut Pose, &mut Twist)>,
 ) {
     let (handle, mut pose, mut twist, mut rolling) = ball.into_inner();
-    for request in requests.iter() {
-        let Request::Body(shove) = request else { continue };
-        match *shove {
-            Shove::Ball { at, velocity } => {
+    for request in requests.due() {
+        let Request::Body(change) = request else { continue };
+        match *change {
+            BodyChange::Ball { at, velocity } => {
                 let velocity = Bound::VELOCITY.clamp_vector(velocity);
                 let wanted = Pose { position: Bound::PLACE.clamp_vector(at), heading: 0.0 };
                 *pose = room.put_down(&[*handle], wanted, &[]);
@@ -33,7 +34,7 @@ pub(super) fn shove_bodies(
                     body.set_linvel(velocity, true);
                 }
             }
-            Shove::Push { robot, by } => {
+            BodyChange::Push { robot, by } => {
                 let found = robots.iter_mut().find(|(id, ..)| **id == robot);
                 let Some((_, handles, _, mut twist)) = found else { continue };
                 let by = Bound::VELOCITY.clamp_vector(by);
@@ -45,14 +46,14 @@ pub(super) fn shove_bodies(
                     }
                 }
             }
-            Shove::Kidnap { robot, to } if to.is_finite() => {
+            BodyChange::Kidnap { robot, to } if to.is_finite() => {
                 let found = robots.iter_mut().find(|(id, ..)| **id == robot);
                 let Some((_, handles, mut pose, mut twist)) = found else { continue };
                 let place = Bound::PLACE.clamp_vector(to.position);
                 let wanted = Pose { position: place, ..to };
                 (*pose, *twist) = (room.put_down(&handles.all(), wanted, &[]), Twist::default());
             }
-            Shove::Kidnap { .. } => {}
+            BodyChange::Kidnap { .. } => {}
         }
     }
 }

@@ -1,117 +1,70 @@
-//! The Script stage: requests from outside a match. Requests wait in [`Requests`] and take effect at the next tick, in the
-//! order in which they were made.
+//! The one door of a match. Whatever comes from outside and may change it, from a person, a script, a changed file, a referee
+//! box or a robot in another process, is a [`Request`]: plain data that wait in [`Requests`] and are due at the next tick.
+//! Seed, assets and the requests of each tick are the whole match; a [`RequestLog`] keeps them.
+//!
+//! A tick begins with the door: who has something to say says it ([`DoorSystems::Ask`]), and what waited is put into an order
+//! that does not depend on what arrived first. Then each kind of request is carried out by the file of its name.
 
-mod air;
 mod bodies;
+mod pilots;
+mod queue;
+mod radio;
+mod referee_box;
+mod remote;
 mod request;
 mod robots;
+mod strategies;
 #[cfg(test)]
 mod tests;
 
-use std::sync::Arc;
-
 use bevy::prelude::*;
 
-use crate::clock::Clock;
-use crate::data::Bound;
-use crate::ids::{RobotId, Team};
-use crate::mind::perception::Memory;
-use crate::robot::pilot::Pilot;
 use crate::schedule::{Tick, TickSystems};
-use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::referee::PenaltiesDue;
-pub use request::{Calibration, Request, Requests, Script, Shove, Treatment, Weather};
+pub use queue::{RequestLog, Requests, Script};
+pub use request::{
+    BodyChange, Calibration, NetworkDatagram, RadioChange, RemoteNews, Request, RobotChange, RobotWants,
+};
 
 pub(super) fn plugin(app: &mut App) {
-    let in_order = (
-        request::follow_script,
-        carry_out_requests,
-        air::change_weather,
-        robots::treat_robots,
-        bodies::shove_bodies,
-        forget_requests,
+    door(app);
+    let of_a_match = (
+        pilots::seat_pilots,
+        radio::change_radio,
+        bodies::move_bodies,
+        referee_box::hear_referee_box,
+        remote::hear_remote_robots,
     );
-    app.init_resource::<PenaltiesDue>()
-        .init_resource::<Requests>()
-        .init_resource::<Script>()
-        .add_systems(Tick, in_order.chain().in_set(TickSystems::Script));
+    app.init_resource::<Script>()
+        .add_systems(Tick, queue::follow_script.in_set(DoorSystems::Script))
+        .add_systems(Tick, of_a_match.chain().in_set(DoorSystems::CarryOut).after(robots::change_robots));
 }
 
-type Scripted<'a> = (Entity, &'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory, Has<Pilot>);
-
-fn carry_out_requests(
-    clock: Res<Clock>,
-    requests: Res<Requests>,
-    mut strategies: ResMut<Strategies>,
-    mut commands: Commands,
-    mut robots: Query<Scripted>,
-) {
-    if requests.is_empty() {
-        return;
-    }
-    let entity_of = |wanted: RobotId, robots: &Query<Scripted>| {
-        robots.iter().find(|(_, id, ..)| **id == wanted).map(|(entity, ..)| entity)
-    };
-    let mut seats: Vec<RobotId> = robots.iter().filter(|seat| seat.5).map(|(_, id, ..)| *id).collect();
-    for request in requests.iter().cloned() {
-        match request {
-            Request::TakeOver(robot) => {
-                seats.push(robot);
-                if let Some(entity) = entity_of(robot, &robots) {
-                    commands.entity(entity).insert(Pilot::default());
-                }
-            }
-            Request::HandBack(robot) => {
-                seats.retain(|seat| *seat != robot);
-                if let Some(entity) = entity_of(robot, &robots) {
-                    commands.entity(entity).remove::<Pilot>();
-                }
-            }
-            Request::Steer { robot, pilot } => {
-                if let Some(entity) = entity_of(robot, &robots).filter(|_| seats.contains(&robot)) {
-                    commands.entity(entity).insert(pilot.limited());
-                }
-            }
-            Request::SetWeight { team, assemblage, term, weight } => {
-                let strategy = Arc::make_mut(&mut strategies.0[team.index()]);
-                let term =
-                    strategy.assemblages.get_mut(assemblage).and_then(|found| found.terms.get_mut(term));
-                if let Some(term) = term.filter(|_| weight.is_finite()) {
-                    term.weight = Bound::WEIGHT.clamp(weight);
-                }
-            }
-            Request::ChangeStrategy { team, strategy } => {
-                change_strategy(team, strategy, &clock, &mut strategies, &mut robots);
-            }
-            Request::Robot(..) | Request::Air(_) | Request::Body(_) => {}
-        }
-    }
+/// What a match shares with a robot's mind that is a process of its own: there, too, strategies and robots are changed.
+pub(crate) fn door(app: &mut App) {
+    let order = (
+        DoorSystems::Script,
+        DoorSystems::Ask,
+        DoorSystems::Open,
+        DoorSystems::CarryOut.run_if(queue::is_any_due),
+    );
+    let of_minds = (strategies::change_strategies, robots::change_robots);
+    app.init_resource::<Requests>()
+        .init_resource::<PenaltiesDue>()
+        .configure_sets(Tick, order.chain().in_set(TickSystems::Script))
+        .add_systems(Tick, queue::open_door.in_set(DoorSystems::Open))
+        .add_systems(Tick, of_minds.chain().in_set(DoorSystems::CarryOut));
 }
 
-fn forget_requests(mut requests: ResMut<Requests>) {
-    if !requests.is_empty() {
-        requests.clear();
-    }
-}
-
-fn change_strategy(
-    team: Team,
-    new: Arc<Strategy>,
-    clock: &Clock,
-    strategies: &mut Strategies,
-    robots: &mut Query<Scripted>,
-) {
-    if new.can_follow(strategies.of(team)).is_err() {
-        return;
-    }
-    let old = std::mem::replace(&mut strategies.0[team.index()], new.clone());
-    for (_, id, mut role, mut activity, mut memory, _) in
-        robots.iter_mut().filter(|(_, id, ..)| id.team == team)
-    {
-        let at_kick_off = new.players.get(usize::from(id.number)).copied().unwrap_or(new.players[0]);
-        let name = &old.roles[role.0].name;
-        role.0 = new.roles.iter().position(|spec| spec.name == *name).unwrap_or(at_kick_off);
-        *activity = activity.carried_over(&old, &new, role.0, clock.tick);
-        *memory = Memory::new(new.slots);
-    }
+/// The order of the Script stage.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DoorSystems {
+    /// A script makes its requests; people have made theirs between the ticks.
+    Script,
+    /// Sockets bring theirs.
+    Ask,
+    /// The requests that have waited are due.
+    Open,
+    /// They are carried out.
+    CarryOut,
 }

@@ -1,21 +1,23 @@
-//! What people and scenarios ask of a running match.
+//! What may be asked of a running match from outside, as plain data.
 
-use std::collections::VecDeque;
+use std::net::SocketAddr;
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
-use crate::clock::Clock;
 use crate::comms::radio::{FaultRule, Partition, Radio};
+use crate::comms::tcm::Peer;
+use crate::comms::tcm::fragments::Header;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::Reassignment;
 use crate::robot::pilot::Pilot;
-use crate::robot::{Ailment, Recall, RobotKind, Sensing};
+use crate::robot::{HeadIntent, KickIntent, Restart, RobotFailure, RobotKind, Sensing, SteeringIntent};
 use crate::strategy::Strategy;
 
 /// Something that is to happen at the next tick.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Request {
     /// A person takes the robot over.
     TakeOver(RobotId),
@@ -33,40 +35,56 @@ pub enum Request {
         term: usize,
         weight: f32,
     },
-    /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow).
+    Robot(RobotId, RobotChange),
+    Radio(RadioChange),
+    Body(BodyChange),
+    /// A packet that has reached the address at which a referee box is followed.
+    RefereeBox {
+        from: SocketAddr,
+        bytes: Arc<[u8]>,
+    },
+    /// News of a robot that decides in another process.
+    Remote(RobotId, RemoteNews),
+    /// A datagram that has reached a robot of this process over a real network.
+    Datagram(NetworkDatagram),
+    /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow). It cannot be written
+    /// to a file, since names and places have been looked up in it. It stays the last one, so that those before it have the
+    /// same numbers when they are written and when they are read.
+    #[serde(skip)]
     ChangeStrategy {
         team: Team,
         strategy: Arc<Strategy>,
     },
-    Robot(RobotId, Treatment),
-    Air(Weather),
-    Body(Shove),
 }
 
-/// What befalls a robot.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Treatment {
-    Afflict(Ailment),
-    /// All its ailments end; a robot that had crashed is switched on again.
-    Revive(Recall),
+/// What happens to a robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum RobotChange {
+    Fail(RobotFailure),
+    /// All its failures end; a robot that had crashed is switched on again.
+    Revive(Restart),
     /// The referee takes it off until the end of the match.
     Penalise,
     /// It decides that roles should be swapped.
     Swap(Reassignment),
     /// Its body and its senses have other values from now on; its size and the rate of its decisions stay.
     Recalibrate(Calibration),
+    /// It decides in this process from now on, as if it had just been switched on, and counts its messages from here on.
+    PlayHere {
+        counter: u32,
+    },
 }
 
 /// The values of a robot that can be calibrated while it plays: its noise, its limits and its senses.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     pub kind: Arc<RobotKind>,
     pub sensing: Arc<Sensing>,
 }
 
-/// What befalls the radio.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Weather {
+/// What happens to the radio.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum RadioChange {
     /// Another radio from now on.
     Change(Radio),
     ExtraLoss(f32),
@@ -84,8 +102,8 @@ pub enum Weather {
 }
 
 /// A hand on the pitch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shove {
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum BodyChange {
     /// Puts the ball somewhere, rolling, m and m/s in the pitch frame.
     Ball { at: Vec2, velocity: Vec2 },
     /// Adds to a robot's velocity, m/s in the pitch frame.
@@ -94,45 +112,99 @@ pub enum Shove {
     Kidnap { robot: RobotId, to: Pose },
 }
 
-/// What a scenario has planned for later, the next one first.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Script(VecDeque<(u64, Request)>);
+/// What a robot that decides in another process has let the match know.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum RemoteNews {
+    /// It wants to do this. It has sent so many team messages since it said so last, each counted once.
+    Wants { wants: RobotWants, said: u64 },
+    /// It is not there, or not any more: it stands still.
+    Silent,
+}
 
-impl Script {
-    /// Requests with their ticks, in any order; those for one tick are made in the order given.
-    pub fn new(planned: &[(u64, Request)]) -> Script {
-        let mut planned: Vec<_> = planned.to_vec();
-        planned.sort_by_key(|(tick, _)| *tick);
-        Script(planned.into())
+/// What a robot wants its motors to do, and how it sees things.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RobotWants {
+    /// The tick of the sensors that it answers.
+    pub tick: u64,
+    /// Where to steer.
+    pub steering: SteeringIntent,
+    /// What to kick.
+    pub kick: KickIntent,
+    /// Where to look.
+    pub head: HeadIntent,
+    /// Index into the strategy's roles.
+    pub role: u8,
+    /// The role that it acts in, as an index.
+    pub acting_as: u8,
+    /// Index into the states of that role's machine.
+    pub state: u16,
+    /// Where it believes itself to be, in the team frame.
+    pub pose: Pose,
+    /// Where it believes the ball to be, m in the team frame.
+    pub ball: Option<Vec2>,
+}
+
+/// A datagram of the TCM that a network has brought.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NetworkDatagram {
+    pub to: RobotId,
+    /// The tick in which a robot sent it; a computer has no ticks.
+    pub sent: Option<u64>,
+    pub bytes: Arc<[u8]>,
+}
+
+impl NetworkDatagram {
+    /// Who sent it, in which message and fragment.
+    pub fn key(&self) -> Option<(Peer, u32, u16)> {
+        let (header, _) = Header::read(&self.bytes).ok()?;
+        Some((header.source.peer, header.counter, header.index))
     }
 }
 
-/// Makes the requests that are due.
-pub(super) fn follow_script(clock: Res<Clock>, mut script: ResMut<Script>, mut requests: ResMut<Requests>) {
-    while let Some((_, request)) = script.0.pop_front_if(|(tick, _)| *tick <= clock.tick) {
-        requests.ask(request);
-    }
+/// Where a request comes from. Those of one tick are carried out in this order, and those of one origin as they were made, so
+/// that it does not matter what arrives first within a tick.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Origin {
+    File(Team),
+    /// A person or a script.
+    Person,
+    RefereeBox(SocketAddr),
+    Remote(RobotId),
+    Network {
+        to: RobotId,
+        sent: Option<u64>,
+        key: Option<(Peer, u32, u16)>,
+    },
 }
 
-/// Requests that wait for the next tick.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Requests(Vec<Request>);
-
-impl Requests {
-    pub fn ask(&mut self, request: Request) {
-        self.0.push(request);
+impl Request {
+    /// Whether it changes what happens in the mind of a robot, also where that is another process.
+    pub fn concerns_mind(&self, robot: RobotId) -> bool {
+        match self {
+            Request::SetWeight { team, .. } => *team == robot.team,
+            Request::Robot(other, change) => {
+                let is_of_body = matches!(change, RobotChange::Penalise | RobotChange::PlayHere { .. });
+                *other == robot && !is_of_body
+            }
+            _ => false,
+        }
     }
 
-    pub fn clear(&mut self) {
-        self.0.clear();
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// In the order in which they were made.
-    pub fn iter(&self) -> impl Iterator<Item = &Request> + '_ {
-        self.0.iter()
+    pub(super) fn origin(&self) -> Origin {
+        match self {
+            Request::ChangeStrategy { team, .. } => Origin::File(*team),
+            Request::RefereeBox { from, .. } => Origin::RefereeBox(*from),
+            Request::Remote(robot, _) => Origin::Remote(*robot),
+            Request::Datagram(datagram) => {
+                Origin::Network { to: datagram.to, sent: datagram.sent, key: datagram.key() }
+            }
+            Request::TakeOver(_)
+            | Request::HandBack(_)
+            | Request::Steer { .. }
+            | Request::SetWeight { .. }
+            | Request::Robot(..)
+            | Request::Radio(_)
+            | Request::Body(_) => Origin::Person,
+        }
     }
 }

@@ -1,18 +1,19 @@
-//! Requests that make robots fail or recover.
+//! Requests that change a robot: what ails it, what it decides, what it is made of.
 
 use std::sync::Arc;
 
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::request::{Calibration, Request, Requests, Treatment};
+use super::queue::Requests;
+use super::request::{Calibration, Request, RobotChange};
 use crate::clock::Clock;
-use crate::comms::tcm::TcmClient;
+use crate::comms::tcm::{Tcm, TcmClient};
 use crate::ids::RobotId;
 use crate::mind::perception::Memory;
 use crate::mind::teamwork::{Booking, Swapping, TeamModel};
 use crate::mind::world_model::WorldModel;
-use crate::robot::{Ailment, Condition, Percepts, Recall, Robot, RobotKind, SteeringIntent};
+use crate::robot::{Health, Percepts, Restart, Robot, RobotFailure, RobotKind, SteeringIntent};
 use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::referee::PenaltiesDue;
 use crate::world::sense::Eyesight;
@@ -20,7 +21,7 @@ use crate::world::sense::Eyesight;
 /// Everything of a robot that a restart resets.
 #[derive(QueryData)]
 #[query_data(mutable)]
-pub(super) struct Patient {
+pub(super) struct RobotQuery {
     id: &'static RobotId,
     robot: &'static mut Robot,
     role: &'static mut Role,
@@ -33,44 +34,56 @@ pub(super) struct Patient {
     percepts: &'static mut Percepts,
     intent: &'static mut SteeringIntent,
     client: &'static mut TcmClient,
+    tcm: &'static mut Tcm,
     booking: Option<&'static mut Booking>,
 }
 
-pub(super) fn treat_robots(
+pub(super) fn change_robots(
     clock: Res<Clock>,
     requests: Res<Requests>,
     strategies: Res<Strategies>,
     mut penalties: ResMut<PenaltiesDue>,
-    mut robots: Query<Patient>,
+    mut robots: Query<RobotQuery>,
 ) {
-    for request in requests.iter() {
-        let Request::Robot(robot, treatment) = request else { continue };
-        let Some(mut robot) = robots.iter_mut().find(|patient| patient.id == robot) else { continue };
-        match treatment {
-            Treatment::Afflict(ailment) => robot.afflict(*ailment),
-            Treatment::Revive(recall) => {
-                let was_off = robot.robot.condition.crashed;
-                robot.robot.condition = Condition::default();
+    for request in requests.due() {
+        let Request::Robot(robot, change) = request else { continue };
+        let Some(mut robot) = robots.iter_mut().find(|found| found.id == robot) else { continue };
+        match change {
+            RobotChange::Fail(failure) => robot.fail(*failure),
+            RobotChange::Revive(restart) => {
+                let was_off = robot.robot.health.crashed;
+                robot.robot.health = Health::default();
                 if was_off {
                     let strategy = strategies.of(robot.id.team);
-                    robot.switch_on(*recall, strategy, clock.tick);
+                    robot.switch_on(*restart, strategy, clock.tick);
                 }
             }
-            Treatment::Penalise => penalties.0.push(*robot.id),
-            Treatment::Recalibrate(calibration) => robot.recalibrate(calibration),
-            Treatment::Swap(reassignment) => {
+            RobotChange::Penalise => penalties.0.push(*robot.id),
+            RobotChange::Recalibrate(calibration) => robot.recalibrate(calibration),
+            RobotChange::Swap(reassignment) => {
                 if let Some(swapping) = &mut robot.swapping {
                     swapping.asked = Some(reassignment.clone());
+                }
+            }
+            RobotChange::PlayHere { counter } => {
+                robot.robot.remote = false;
+                // Before the first tick it has said nothing and has nothing to forget.
+                if clock.tick == 0 {
+                    continue;
+                }
+                robot.tcm.count_from(*counter);
+                if !robot.robot.health.crashed {
+                    robot.switch_on(Restart::Lost, strategies.of(robot.id.team), clock.tick);
                 }
             }
         }
     }
 }
 
-impl PatientItem<'_, '_> {
-    fn afflict(&mut self, ailment: Ailment) {
-        self.robot.condition = self.robot.condition.with(ailment);
-        if self.robot.condition.crashed {
+impl RobotQueryItem<'_, '_> {
+    fn fail(&mut self, failure: RobotFailure) {
+        self.robot.health = self.robot.health.with(failure);
+        if self.robot.health.crashed {
             *self.intent = SteeringIntent::Stop;
             self.client.clear();
         }
@@ -88,18 +101,18 @@ impl PatientItem<'_, '_> {
     }
 
     /// What the robot was in the middle of is gone in any case.
-    fn switch_on(&mut self, recall: Recall, strategy: &Strategy, tick: u64) {
+    fn switch_on(&mut self, restart: Restart, strategy: &Strategy, tick: u64) {
         let at_kick_off = strategy.players.get(usize::from(self.id.number)).copied();
-        match (&mut self.swapping, recall) {
+        match (&mut self.swapping, restart) {
             (Some(swapping), _) => {
-                swapping.restart(recall);
+                swapping.restart(restart);
                 self.role.0 = usize::from(swapping.machine.role());
             }
-            (None, Recall::Lost) => self.role.0 = at_kick_off.unwrap_or(self.role.0),
-            (None, Recall::Kept) => {}
+            (None, Restart::Lost) => self.role.0 = at_kick_off.unwrap_or(self.role.0),
+            (None, Restart::Kept) => {}
         }
         let known = std::mem::replace(&mut *self.team_model, TeamModel::new(strategy));
-        if recall == Recall::Kept {
+        if restart == Restart::Kept {
             self.team_model.roles = known.roles;
         }
         if let Some(booking) = &mut self.booking {

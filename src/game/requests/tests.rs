@@ -1,9 +1,25 @@
 //! Requests, carried out by hand.
 
+use std::net::SocketAddr;
+use std::sync::Arc;
+
+use proptest::prelude::*;
+use proptest::strategy::Strategy as _;
+
 use super::*;
+use crate::clock::Clock;
+use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{Channel, FaultRules, Interference};
-use crate::ids::Team::{Away, Home};
+use crate::comms::tcm::ExternalMessage;
+use crate::comms::tcm::fragments::{USUAL_DATAGRAM, cut};
+use crate::geometry::Pose;
+use crate::ids::RobotId;
+use crate::ids::Team::{self, Away, Home};
+use crate::mind::perception::Memory;
 use crate::rng::Seed;
+use crate::robot::pilot::Pilot;
+use crate::robot::{HeadIntent, KickIntent, Restart, SteeringIntent};
+use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::testing::{perfect_radio, strategy};
 
 /// Two schemas in one assemblage, one machine, two roles; the first one plays.
@@ -154,6 +170,84 @@ fn another_strategy_gives_the_robots_of_one_team_their_roles_by_name_and_a_new_m
     assert_eq!((weights(&app, Home), weights(&app, Away)), (vec![1.0, 2.0], vec![7.0, 2.0]));
 }
 
+/// What sockets may bring in one tick, each of another origin than the others or as its origin has sent it.
+fn from_sockets() -> Vec<Request> {
+    let address = |port: u16| SocketAddr::from(([127, 0, 0, 1], port));
+    let packet = |port| Request::RefereeBox { from: address(port), bytes: [7].into() };
+    let wants = |robot: RobotId| {
+        let wants = RobotWants {
+            tick: 3,
+            steering: SteeringIntent::Stop,
+            kick: KickIntent::Nothing,
+            head: HeadIntent::default(),
+            role: 0,
+            acting_as: 0,
+            state: 0,
+            pose: Pose::default(),
+            ball: None,
+        };
+        Request::Remote(robot, RemoteNews::Wants { wants, said: 1 })
+    };
+    let heard = |to: RobotId, from: RobotId, sent: u64, counter: u32| {
+        let message = ExternalMessage::of(&TeamMessage::Text("hello".into()), from.into(), to.into());
+        let bytes = cut(&message, counter, USUAL_DATAGRAM).unwrap().remove(0).into();
+        Request::Datagram(NetworkDatagram { to, sent: Some(sent), bytes })
+    };
+    vec![
+        packet(1),
+        packet(2),
+        wants(FIRST),
+        wants(SECOND),
+        heard(FIRST, SECOND, 1, 9),
+        heard(FIRST, NOBODY, 1, 4),
+        heard(FIRST, SECOND, 2, 3),
+        heard(FIRST, SECOND, 2, 8),
+        heard(SECOND, FIRST, 1, 1),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn what_arrives_first_within_a_tick_does_not_matter(mixed in Just(from_sockets()).prop_shuffle()) {
+        let mut app = app();
+        ask(&mut app, mixed);
+        let due: Vec<Request> = app.world().resource::<Requests>().due().cloned().collect();
+        prop_assert_eq!(due, from_sockets());
+    }
+}
+
+#[test]
+fn a_log_has_the_requests_of_each_tick_in_the_order_in_which_they_were_carried_out() {
+    let mut app = app();
+    app.insert_resource(RequestLog::default());
+    app.insert_resource(Script::new(&[(1, Request::TakeOver(SECOND))]));
+    let change = Request::ChangeStrategy { team: Home, strategy: Arc::new(one()) };
+    ask(&mut app, [set_weight(Home, 0, 3.0), change.clone()]);
+    app.world_mut().resource_mut::<Clock>().tick = 1;
+    ask(&mut app, [steer(SECOND, 0.5)]);
+    ask(&mut app, []);
+    let RequestLog(log) = app.world().resource::<RequestLog>().clone();
+    let expected =
+        [(0, change), (0, set_weight(Home, 0, 3.0)), (1, steer(SECOND, 0.5)), (1, Request::TakeOver(SECOND))];
+    assert_eq!(log, expected);
+}
+
+#[test]
+fn a_log_can_be_written_to_a_file_and_read_again() {
+    let mut asked = from_sockets();
+    asked.extend([Request::TakeOver(FIRST), steer(FIRST, 0.5), set_weight(Away, 1, 2.5)]);
+    asked.extend(
+        [RobotChange::Penalise, RobotChange::Revive(Restart::Kept)].map(|it| Request::Robot(SECOND, it)),
+    );
+    asked.push(Request::Radio(RadioChange::Change(perfect_radio())));
+    asked.push(Request::Body(BodyChange::Ball { at: Vec2::X, velocity: Vec2::Y }));
+    let log = RequestLog(asked.into_iter().map(|request| (7, request)).collect());
+    let text = ron::to_string(&log).unwrap();
+    assert_eq!(ron::from_str::<RequestLog>(&text).unwrap(), log);
+    let bytes = postcard::to_stdvec(&log).unwrap();
+    assert_eq!(postcard::from_bytes::<RequestLog>(&bytes).unwrap(), log);
+}
+
 #[test]
 fn cleared_requests_are_never_carried_out() {
     let mut app = app();
@@ -176,8 +270,8 @@ fn a_robot_that_nobody_drives_is_not_steered() {
 fn what_a_hand_asks_for_is_kept_within_the_bounds_of_files() {
     let mut app = app();
     let weight = Request::SetWeight { team: Home, assemblage: 0, term: 0, weight: 1e30 };
-    let weather = [Weather::ExtraDelay(1e30), Weather::ExtraLoss(-5.0)].map(Request::Air);
-    ask(&mut app, [weight].into_iter().chain(weather));
+    let changes = [RadioChange::ExtraDelay(1e30), RadioChange::ExtraLoss(-5.0)].map(Request::Radio);
+    ask(&mut app, [weight].into_iter().chain(changes));
     assert_eq!(weights(&app, Home), [1000.0, 2.0]);
     let interference = app.world().resource::<Interference>();
     assert_eq!((interference.extra_delay, interference.extra_loss), (600.0, 0.0));

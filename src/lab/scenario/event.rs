@@ -4,7 +4,7 @@ use bevy::prelude::Vec2;
 use serde::{Deserialize, Serialize};
 
 use crate::ids::RobotId;
-use crate::robot::Recall;
+use crate::robot::Restart;
 use crate::strategy::teamwork::Mechanism;
 
 /// Something that happens at a time.
@@ -33,7 +33,7 @@ pub enum Event {
     /// The referee takes the robot off for the rest of the scenario.
     Penalise(RobotId),
     /// Ends a crash, a freeze, deafness and muteness.
-    Revive { robot: RobotId, memory: Recall },
+    Revive { robot: RobotId, memory: Restart },
     /// The robot is out of radio range of all others.
     CutOff(RobotId),
     /// Ends [`Event::CutOff`].

@@ -189,7 +189,7 @@ mod tests {
     use crate::data::{Source, ron_options};
     use crate::geometry::Zone;
     use crate::ids::{RobotId, Team};
-    use crate::robot::Recall;
+    use crate::robot::Restart;
 
     fn home(number: u8) -> RobotId {
         RobotId::new(Team::Home, number)
@@ -241,7 +241,7 @@ mod tests {
         assert_eq!(parsed::<Event>(r#"Crash("home 1")"#), Event::Crash(home(1)));
         let partition = Event::Partition(vec![home(0)], vec![home(1), RobotId::new(Team::Away, 2)]);
         assert_eq!(parsed::<Event>(r#"Partition(["home 0"], ["home 1", "away:2"])"#), partition);
-        let revival = Event::Revive { robot: home(1), memory: Recall::Lost };
+        let revival = Event::Revive { robot: home(1), memory: Restart::Lost };
         assert_eq!(parsed::<Event>(r#"Revive(robot: "home 1", memory: Lost)"#), revival);
         let ball = Event::Ball { at: Vec2::new(1.0, 0.0), velocity: Vec2::ZERO };
         assert_eq!(parsed::<Event>("Ball(at: (1, 0))"), ball);

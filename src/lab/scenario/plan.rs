@@ -11,13 +11,13 @@ use super::file::{Referee, ScenarioFile, SideFile};
 use crate::clock::{Clock, TICK_HZ};
 use crate::comms::radio::{Partition, Radio};
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
-use crate::game::requests::{Request, Shove, Treatment, Weather};
+use crate::game::requests::{BodyChange, RadioChange, Request, RobotChange};
 use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked, file_named};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::protocol::role_swap::{PaperRules, Reassignment, RoleIndex};
-use crate::robot::Ailment;
+use crate::robot::RobotFailure;
 use crate::strategy::Strategy;
 use crate::strategy::teamwork::Protocol;
 
@@ -186,37 +186,37 @@ fn script(
 }
 
 fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Request, DataError> {
-    let afflict = |robot: RobotId, ailment| Request::Robot(robot, Treatment::Afflict(ailment));
+    let fail = |robot: RobotId, failure| Request::Robot(robot, RobotChange::Fail(failure));
     Ok(match event {
-        Event::Crash(robot) => afflict(*robot, Ailment::Crashed),
-        Event::Freeze(robot) => afflict(*robot, Ailment::Frozen),
-        Event::Deaf(robot) => afflict(*robot, Ailment::Deaf),
-        Event::Mute(robot) => afflict(*robot, Ailment::Mute),
-        Event::Penalise(robot) => Request::Robot(*robot, Treatment::Penalise),
-        Event::Revive { robot, memory } => Request::Robot(*robot, Treatment::Revive(*memory)),
-        Event::CutOff(robot) => Request::Air(Weather::CutOff(*robot)),
-        Event::Reconnect(robot) => Request::Air(Weather::Reconnect(*robot)),
-        Event::Partition(one, other) => Request::Air(Weather::Part(Partition {
+        Event::Crash(robot) => fail(*robot, RobotFailure::Crashed),
+        Event::Freeze(robot) => fail(*robot, RobotFailure::Frozen),
+        Event::Deaf(robot) => fail(*robot, RobotFailure::Deaf),
+        Event::Mute(robot) => fail(*robot, RobotFailure::Mute),
+        Event::Penalise(robot) => Request::Robot(*robot, RobotChange::Penalise),
+        Event::Revive { robot, memory } => Request::Robot(*robot, RobotChange::Revive(*memory)),
+        Event::CutOff(robot) => Request::Radio(RadioChange::CutOff(*robot)),
+        Event::Reconnect(robot) => Request::Radio(RadioChange::Reconnect(*robot)),
+        Event::Partition(one, other) => Request::Radio(RadioChange::Part(Partition {
             reason: "the scenario's script".into(),
             one: one.iter().copied().collect(),
             other: other.iter().copied().collect(),
         })),
-        Event::Heal => Request::Air(Weather::Heal),
-        Event::Jam(jammed) => Request::Air(Weather::Jam(*jammed)),
+        Event::Heal => Request::Radio(RadioChange::Heal),
+        Event::Jam(jammed) => Request::Radio(RadioChange::Jam(*jammed)),
         Event::Radio(name) => {
-            Request::Air(Weather::Change(checked(&assets.file(AssetKind::Radio, name), Radio::fault)?))
+            Request::Radio(RadioChange::Change(checked(&assets.file(AssetKind::Radio, name), Radio::fault)?))
         }
-        Event::Ball { at, velocity } => Request::Body(Shove::Ball { at: *at, velocity: *velocity }),
-        Event::Push { robot, by } => Request::Body(Shove::Push { robot: *robot, by: *by }),
+        Event::Ball { at, velocity } => Request::Body(BodyChange::Ball { at: *at, velocity: *velocity }),
+        Event::Push { robot, by } => Request::Body(BodyChange::Push { robot: *robot, by: *by }),
         Event::Kidnap { robot, to, facing } => {
             let to = Pose { position: *to, heading: facing.to_radians() };
-            Request::Body(Shove::Kidnap { robot: *robot, to })
+            Request::Body(BodyChange::Kidnap { robot: *robot, to })
         }
         Event::InitiateSwap { robot, roles } => {
             let strategy = &plan.team(robot.team).strategy;
             let pair = |(from, to): &(String, String)| Some((role(strategy, from)?, role(strategy, to)?));
             let pairs = roles.iter().filter_map(pair).collect();
-            Request::Robot(*robot, Treatment::Swap(Reassignment::Roles(pairs)))
+            Request::Robot(*robot, RobotChange::Swap(Reassignment::Roles(pairs)))
         }
     })
 }

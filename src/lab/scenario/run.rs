@@ -118,7 +118,7 @@ fn robot_scene<'a>(
         id: *id,
         pose: *pose,
         speed: twist.linear.length(),
-        on: !robot.condition.crashed,
+        on: !robot.health.crashed,
         role: &strategy.roles[role.0].name,
         acting_as: &strategy.roles[activity.acting_as].name,
         activity: &strategy.state(activity.machine(strategy), activity.state).name,

@@ -6,7 +6,7 @@ use bevy::prelude::Vec2;
 
 use super::condition::{Area, Condition, Expectation, Packets, Thing};
 use super::event::{Dependency, Event};
-use crate::robot::Recall;
+use crate::robot::Restart;
 
 /// The parts in their order with a word between each two.
 pub(super) fn list<T: Display>(parts: impl IntoIterator<Item = T>, between: &str) -> String {
@@ -179,8 +179,8 @@ impl Display for Event {
             Event::Deaf(robot) => write!(f, "{robot} goes deaf"),
             Event::Mute(robot) => write!(f, "{robot} goes mute"),
             Event::Penalise(robot) => write!(f, "{robot} is penalised"),
-            Event::Revive { robot, memory: Recall::Kept } => write!(f, "{robot} comes back"),
-            Event::Revive { robot, memory: Recall::Lost } => write!(f, "{robot} comes back afresh"),
+            Event::Revive { robot, memory: Restart::Kept } => write!(f, "{robot} comes back"),
+            Event::Revive { robot, memory: Restart::Lost } => write!(f, "{robot} comes back afresh"),
             Event::CutOff(robot) => write!(f, "{robot} is cut off"),
             Event::Reconnect(robot) => write!(f, "{robot} is reconnected"),
             Event::Partition(a, b) => {

@@ -35,7 +35,7 @@ pub(super) fn hear_news(
 /// The last system of the stage: a robot that has decided has read its inbox, and one that does not hear reads nothing.
 pub(super) fn take_messages(clock: Res<Clock>, mut robots: Query<(&Robot, &mut Inbox)>) {
     for (robot, mut inbox) in &mut robots {
-        if robot.is_due(clock.tick) || !robot.condition.hears() {
+        if robot.is_due(clock.tick) || !robot.health.hears() {
             inbox.0.clear();
         }
     }

@@ -19,7 +19,7 @@ use crate::protocol::role_swap::{
     Timer,
 };
 use crate::rng::{Dice, Seed};
-use crate::robot::{OffPitch, Recall, Robot};
+use crate::robot::{OffPitch, Restart, Robot};
 use crate::strategy::teamwork::{Mechanism, Protocol, RoleSwapSpec, Timers};
 use crate::strategy::{Role, Strategies, Strategy};
 
@@ -67,8 +67,8 @@ impl Swapping {
     }
 
     /// The robot was switched off and on again.
-    pub fn restart(&mut self, recall: Recall) {
-        self.machine.restart(recall == Recall::Kept);
+    pub fn restart(&mut self, restart: Restart) {
+        self.machine.restart(restart == Restart::Kept);
         self.deadlines = [None; 3];
         self.policy = PolicyState::default();
         (self.values, self.planned, self.asked) = (None, None, None);

@@ -9,7 +9,7 @@ use crate::data::{AssetFolder, AssetKind};
 use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::{Assignment, AttemptPhase};
 use crate::rng::Seed;
-use crate::robot::{Ailment, Condition, Robot};
+use crate::robot::{Health, Robot, RobotFailure};
 use crate::strategy::Strategy;
 use crate::testing::{cye, idle, perfect_sensing};
 
@@ -64,10 +64,10 @@ fn an_inbox_is_empty_after_each_decision_and_while_its_robot_does_not_hear() {
     let clock = *app.world().resource::<Clock>();
     let robot = Robot::new(Arc::new(cye()), Arc::new(perfect_sensing()), &clock);
     let entity = app.world_mut().spawn((robot.clone(), Inbox::default())).id();
-    let mut waiting = |tick: u64, condition: Condition| {
+    let mut waiting = |tick: u64, health: Health| {
         app.world_mut().resource_mut::<Clock>().tick = tick;
         let mut body = app.world_mut().entity_mut(entity);
-        body.get_mut::<Robot>().expect("it is a robot").condition = condition;
+        body.get_mut::<Robot>().expect("it is a robot").health = health;
         let message = TeamMessage::Text("go".into());
         body.get_mut::<Inbox>().expect("it has one").0.push(Received { from: 1, message });
         app.world_mut().run_schedule(Tick);
@@ -75,12 +75,12 @@ fn an_inbox_is_empty_after_each_decision_and_while_its_robot_does_not_hear() {
     };
     let (decides, rests): (Vec<u64>, Vec<u64>) = (0..9).partition(|tick| robot.is_due(*tick));
     assert!(decides.len() > 1 && rests.len() > decides.len());
-    let well = Condition::default();
+    let well = Health::default();
     let mut before = 0;
     for tick in 0..9 {
         let expected = if decides.contains(&tick) { 0 } else { before + 1 };
         before = waiting(tick, well);
         assert_eq!(before, expected, "tick {tick}");
     }
-    assert_eq!(waiting(rests[0], well.with(Ailment::Deaf)), 0);
+    assert_eq!(waiting(rests[0], well.with(RobotFailure::Deaf)), 0);
 }

@@ -62,7 +62,7 @@ pub struct Configuration {
 }
 
 /// What an initiator wants to change, in the words of its rule.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Reassignment {
     /// The holder of a pair's first role takes the second, as in "the forward becomes the floater".
     Roles(SmallVec<[(RoleIndex, RoleIndex); 4]>),

@@ -49,7 +49,7 @@ struct Driven {
 
 fn command_motors(clock: Res<Clock>, mut robots: Query<Driven>) {
     for mut driven in &mut robots {
-        let may_move = driven.orders.may_move() && driven.robot.condition.drives();
+        let may_move = driven.orders.may_move() && driven.robot.health.drives();
         let next = match (&driven.robot.kind.drive, *driven.command) {
             (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
                 let wanted = if may_move { driven.wheels(drive) } else { WheelSpeeds::default() };

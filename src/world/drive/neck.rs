@@ -11,7 +11,7 @@ pub(super) fn turn_heads(
     mut robots: Query<(&Robot, &HeadIntent, Option<&Pilot>, &mut Head), Without<OffPitch>>,
 ) {
     for (robot, intent, pilot, mut head) in &mut robots {
-        let Some(neck) = robot.kind.neck.filter(|_| !robot.condition.crashed) else { continue };
+        let Some(neck) = robot.kind.neck.filter(|_| !robot.health.crashed) else { continue };
         let fastest = neck.speed.to_radians();
         let (wanted, speed) = match pilot.and_then(|pilot| pilot.head) {
             Some(share) => (share * neck.pan.to_radians(), fastest),

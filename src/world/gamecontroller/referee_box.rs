@@ -3,13 +3,13 @@
 //! One box is followed until it falls silent; other boxes are ignored meanwhile. A side is 0 for home
 //! and 1 for away throughout, the place in arrays of two.
 
-use std::mem::{Discriminant, discriminant};
+use std::mem::discriminant;
 use std::net::SocketAddr;
 
 use thiserror::Error;
 
 use super::control::{ControlPacket, PacketError, Version};
-pub use super::view::{GONE_AFTER, NotObeyed, Penalised, View};
+pub use super::view::{BoxView, GONE_AFTER, NotObeyed, Penalised};
 
 /// After this many milliseconds without news the box is lost: any other one is followed, and a packet of any number is
 /// news. Boxes send every 500 ms.
@@ -44,7 +44,7 @@ pub enum Ignored {
 
 /// Counts of the packets heard.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Heard {
+pub struct PacketCounts {
     /// Gave a view.
     pub news: u64,
     /// The newest packet once more.
@@ -63,7 +63,7 @@ pub struct Heard {
     pub stale: u64,
 }
 
-impl Heard {
+impl PacketCounts {
     /// The packets that were not followed: for each reason a word and their number.
     pub fn ignored(&self) -> [(&'static str, u64); 6] {
         [
@@ -83,8 +83,9 @@ pub struct RefereeBox {
     team_numbers: Option<[u8; 2]>,
     players: [u8; 2],
     newest: Option<Newest>,
-    heard: Heard,
-    told: Vec<Discriminant<Ignored>>,
+    heard: PacketCounts,
+    /// The first packet that was ignored for each reason.
+    ignored: Vec<(SocketAddr, Ignored)>,
 }
 
 /// The last packet that was news.
@@ -112,7 +113,13 @@ impl RefereeBox {
     /// the first good packet. Home is then taken to be the team that defends the left goal in the first half: the first
     /// one listed there, and the second one in a packet of a second half.
     pub fn new(team_numbers: Option<[u8; 2]>, players: [u8; 2]) -> RefereeBox {
-        RefereeBox { team_numbers, players, newest: None, heard: Heard::default(), told: Vec::new() }
+        RefereeBox {
+            team_numbers,
+            players,
+            newest: None,
+            heard: PacketCounts::default(),
+            ignored: Vec::new(),
+        }
     }
 
     /// The numbers of home and away, once they are known.
@@ -131,7 +138,7 @@ impl RefereeBox {
     }
 
     /// The packets heard so far.
-    pub fn heard(&self) -> Heard {
+    pub fn heard(&self) -> PacketCounts {
         self.heard
     }
 
@@ -139,8 +146,8 @@ impl RefereeBox {
     /// if it is the newest packet once more, as when it came over two networks.
     ///
     /// # Errors
-    /// If the packet does not concern us, with the reason; nothing but the count of such packets changes.
-    pub fn hear(&mut self, from: SocketAddr, bytes: &[u8], now: u64) -> Result<Option<View>, Ignored> {
+    /// If the packet does not concern us, with the reason; nothing but what is known of such packets changes.
+    pub fn hear(&mut self, from: SocketAddr, bytes: &[u8], now: u64) -> Result<Option<BoxView>, Ignored> {
         let result = self.follow(from, bytes, now);
         let count = match &result {
             Ok(Some(_)) => &mut self.heard.news,
@@ -153,20 +160,20 @@ impl RefereeBox {
             Err(Ignored::Stale) => &mut self.heard.stale,
         };
         *count += 1;
+        if let Err(reason) = &result
+            && self.ignored.iter().all(|(_, known)| discriminant(known) != discriminant(reason))
+        {
+            self.ignored.push((from, *reason));
+        }
         result
     }
 
-    /// Whether a reason of this kind was never asked about before; then it deserves a line in the log.
-    pub fn first_time(&mut self, reason: &Ignored) -> bool {
-        let kind = discriminant(reason);
-        let new = !self.told.contains(&kind);
-        if new {
-            self.told.push(kind);
-        }
-        new
+    /// The first packet that was ignored for each reason, by its sender; they deserve a line in the log.
+    pub fn ignored(&self) -> &[(SocketAddr, Ignored)] {
+        &self.ignored
     }
 
-    fn follow(&mut self, from: SocketAddr, bytes: &[u8], now: u64) -> Result<Option<View>, Ignored> {
+    fn follow(&mut self, from: SocketAddr, bytes: &[u8], now: u64) -> Result<Option<BoxView>, Ignored> {
         let packet = ControlPacket::read(bytes)?;
         let [first, second] = packet.teams.each_ref().map(|team| team.team_number);
         let at_start = if packet.first_half.is_set() { [first, second] } else { [second, first] };
@@ -192,7 +199,7 @@ impl RefereeBox {
         self.team_numbers = Some(ours);
         let (version, number) = (packet.version, packet.packet_number);
         self.newest = Some(Newest { from, version, number, at: now, bytes: bytes.to_vec() });
-        Ok(Some(View::of(&packet, places, self.players)))
+        Ok(Some(BoxView::of(&packet, places, self.players)))
     }
 }
 
@@ -229,7 +236,7 @@ mod tests {
     #[test]
     fn a_packet_tells_what_matters_to_the_match() {
         let pushed = Penalised { player: 1, penalty: Penalty::Pushing, seconds_left: 0 };
-        let expected = View {
+        let expected = BoxView {
             state: State::Playing,
             game_phase: GamePhase::Normal,
             set_play: SetPlay::None,
@@ -244,8 +251,13 @@ mod tests {
             missing: [vec![4, 5, 6], vec![4, 5, 6]],
         };
         assert_eq!(RefereeBox::new(Some([6, 9]), [4; 2]).hear(ONE, HSL_LAST, 0), Ok(Some(expected.clone())));
-        let swapped =
-            View { left: 1, kicking: Some(0), score: [0, 1], penalties: [vec![pushed], vec![]], ..expected };
+        let swapped = BoxView {
+            left: 1,
+            kicking: Some(0),
+            score: [0, 1],
+            penalties: [vec![pushed], vec![]],
+            ..expected
+        };
         assert_eq!(RefereeBox::new(Some([9, 6]), [4; 2]).hear(ONE, HSL_LAST, 0), Ok(Some(swapped)));
     }
 
@@ -300,16 +312,28 @@ mod tests {
         // Stale packets do not break the silence.
         assert!(matches!(referee.hear(ONE, &numbered(2), 3_001), Ok(Some(_))));
         assert!(matches!(after(&[3]).hear(ONE, &numbered(131), 1_000), Ok(Some(_))));
-        assert_eq!(referee.heard(), Heard { news: 4, stale: 3, ..Heard::default() });
+        assert_eq!(referee.heard(), PacketCounts { news: 4, stale: 3, ..PacketCounts::default() });
     }
 
     #[test]
-    fn a_reason_of_each_kind_is_told_once_however_many_lengths_there_are() {
-        let mut referee = RefereeBox::new(None, [4; 2]);
-        let lengths = (0..1_000).map(|got| Ignored::Length { got, expected: 118 });
-        assert_eq!(lengths.filter(|reason| referee.first_time(reason)).count(), 1);
-        assert!(referee.first_time(&Ignored::Version(12)) && !referee.first_time(&Ignored::Version(21)));
-        assert!(referee.first_time(&Ignored::Teams([1, 2])) && referee.first_time(&Ignored::Sender(ONE)));
+    fn the_first_packet_of_each_reason_is_remembered_however_many_lengths_there_are() {
+        let mut referee = after(&[7]);
+        for length in 5..100 {
+            assert!(referee.hear(OTHER, &HSL_LAST[..length], 1_000).is_err());
+        }
+        for bytes in [&b"RGme\x0c"[..], b"RGme\x15", b"hello", &numbered(8), &numbered(6)] {
+            let from = if bytes == numbered(6) { ONE } else { OTHER };
+            assert!(referee.hear(from, bytes, 1_000).is_err());
+        }
+        let length = Ignored::Length { got: 5, expected: 198 };
+        let first = [
+            (OTHER, length),
+            (OTHER, Ignored::Version(12)),
+            (OTHER, Ignored::NotOurs),
+            (OTHER, Ignored::Sender(ONE)),
+            (ONE, Ignored::Stale),
+        ];
+        assert_eq!(referee.ignored(), first);
     }
 
     #[test]

@@ -36,12 +36,12 @@ pub struct StatusPacket {
     /// rad, counter-clockwise from the direction of `x`.
     pub theta: f32,
     /// `None` if the robot has not seen the ball yet.
-    pub ball: Option<SeenBall>,
+    pub ball: Option<StatusBall>,
 }
 
 /// Where a robot saw the ball last, relative to itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SeenBall {
+pub struct StatusBall {
     /// s since then. What is below 0 is read as a ball not seen.
     pub age: f32,
     /// m ahead of the robot.
@@ -68,7 +68,7 @@ pub enum StatusError {
 /// The packet as it crosses the network.
 #[binrw]
 #[brw(little, magic = b"RGrt")]
-struct Wire {
+struct StatusBytes {
     version: u8,
     player_number: u8,
     team_number: u8,
@@ -93,9 +93,9 @@ impl StatusPacket {
         if bytes.len() != STATUS_LEN {
             return Err(length);
         }
-        let wire = Wire::read(&mut Cursor::new(bytes)).map_err(|_| length)?;
+        let wire = StatusBytes::read(&mut Cursor::new(bytes)).map_err(|_| length)?;
         let [x, y, theta] = wire.pose;
-        let seen = SeenBall { age: wire.ball_age, x: metres(wire.ball[0]), y: metres(wire.ball[1]) };
+        let seen = StatusBall { age: wire.ball_age, x: metres(wire.ball[0]), y: metres(wire.ball[1]) };
         Ok(StatusPacket {
             player_number: wire.player_number,
             team_number: wire.team_number,
@@ -109,8 +109,8 @@ impl StatusPacket {
 
     /// The [`STATUS_LEN`] bytes of this packet.
     pub fn write(&self) -> Vec<u8> {
-        let ball = self.ball.unwrap_or(SeenBall { age: NEVER, x: 0.0, y: 0.0 });
-        let wire = Wire {
+        let ball = self.ball.unwrap_or(StatusBall { age: NEVER, x: 0.0, y: 0.0 });
+        let wire = StatusBytes {
             version: STATUS_VERSION,
             player_number: self.player_number,
             team_number: self.team_number,
@@ -150,7 +150,7 @@ mod tests {
             x: -4.25,
             y: 0.5,
             theta: 1.5,
-            ball: Some(SeenBall { age: 0.25, x: 2.0, y: -1.0 }),
+            ball: Some(StatusBall { age: 0.25, x: 2.0, y: -1.0 }),
         }
     }
 
@@ -170,7 +170,7 @@ mod tests {
         let bytes = packet.write();
         assert_eq!((bytes[7], &bytes[20..24]), (1, &(-1.0f32).to_le_bytes()[..]));
         assert_eq!(StatusPacket::read(&bytes), Ok(packet));
-        let now = StatusPacket { ball: Some(SeenBall { age: 0.0, x: 1.0, y: 0.0 }), ..packet };
+        let now = StatusPacket { ball: Some(StatusBall { age: 0.0, x: 1.0, y: 0.0 }), ..packet };
         assert_eq!(StatusPacket::read(&now.write()), Ok(now));
     }
 
@@ -195,7 +195,7 @@ mod tests {
             (x, y, theta) in (-1e6f32..1e6, -1e6f32..1e6, -7f32..7.0),
             ball in prop::option::of((0f32..1e6, -1e6f32..1e6, -1e6f32..1e6)),
         ) {
-            let ball = ball.map(|(age, x, y)| SeenBall { age, x, y });
+            let ball = ball.map(|(age, x, y)| StatusBall { age, x, y });
             let packet = StatusPacket { player_number, team_number, fallen, x, y, theta, ball };
             let read = StatusPacket::read(&packet.write()).unwrap();
             prop_assert!(near(read.x, x) && near(read.y, y), "{packet:?} {read:?}");

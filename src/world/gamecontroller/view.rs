@@ -1,9 +1,10 @@
 //! What a control packet says about our match. A side is 0 for home and 1 for away, the place in arrays of two.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use super::control::{ControlPacket, GamePhase, Penalty, SetPlay, State};
-use crate::ids::Team;
+use crate::ids::{RobotId, Team};
 
 /// Seconds after which a box that has finished a match is taken to be done with it: one with a winner, and one that may go
 /// on with extra time, a shoot-out or the next shot of one. ASSUMPTION: the breaks of the league's rules are shorter.
@@ -13,7 +14,7 @@ pub const GONE_AFTER: f64 = 5.0;
 
 /// What a control packet says about our match.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct View {
+pub struct BoxView {
     pub state: State,
     pub game_phase: GamePhase,
     pub set_play: SetPlay,
@@ -34,6 +35,26 @@ pub struct View {
     pub penalties: [Vec<Penalised>; 2],
     /// Players that take part for the box and do not exist here, by side, counted from 0.
     pub missing: [Vec<u8>; 2],
+}
+
+impl Default for BoxView {
+    /// A match that has not begun.
+    fn default() -> BoxView {
+        BoxView {
+            state: State::Initial,
+            game_phase: GamePhase::Normal,
+            set_play: SetPlay::None,
+            stopped: false,
+            first_half: true,
+            left: 0,
+            kicking: None,
+            score: [0, 0],
+            seconds_left: 0,
+            secondary_time: 0,
+            penalties: Default::default(),
+            missing: Default::default(),
+        }
+    }
 }
 
 /// A player that may not play.
@@ -59,9 +80,9 @@ pub enum NotObeyed {
     NobodyKicks(SetPlay),
 }
 
-impl View {
+impl BoxView {
     /// What a packet says of teams with so many players each that stand at these places in it, home first.
-    pub(super) fn of(packet: &ControlPacket, places: [usize; 2], players: [u8; 2]) -> View {
+    pub(super) fn of(packet: &ControlPacket, places: [usize; 2], players: [u8; 2]) -> BoxView {
         let teams = places.map(|place| &packet.teams[place]);
         let sides =
             [0, 1].map(|side| (0u8..).zip(teams[side].players).map(move |it| (it, it.0 < players[side])));
@@ -79,7 +100,7 @@ impl View {
             others.map(|((player, _), _)| player).collect()
         });
         let numbers = teams.map(|team| team.team_number);
-        View {
+        BoxView {
             state: packet.state,
             game_phase: packet.game_phase,
             set_play: packet.set_play,
@@ -117,6 +138,24 @@ impl View {
     pub fn penalty_of(&self, side: usize, player: u8) -> Penalty {
         let found = self.penalties[side].iter().find(|penalised| penalised.player == player);
         found.map_or(Penalty::None, |penalised| penalised.penalty)
+    }
+
+    /// Each robot whose penalty is another one than before, with the one that it has now.
+    pub fn new_penalties(&self, before: Option<&BoxView>) -> Vec<(RobotId, Penalty)> {
+        let mut changed = Vec::new();
+        for team in Team::BOTH {
+            let side = team.index();
+            let known = before.into_iter().chain([self]).flat_map(|view| &view.penalties[side]);
+            let players: BTreeSet<u8> = known.map(|penalised| penalised.player).collect();
+            for player in players {
+                let was = before.map_or(Penalty::None, |view| view.penalty_of(side, player));
+                let is = self.penalty_of(side, player);
+                if was != is {
+                    changed.push((RobotId::new(team, player), is));
+                }
+            }
+        }
+        changed
     }
 
     /// What cannot be obeyed of this.
@@ -164,40 +203,40 @@ mod tests {
     use super::super::control::tests::HSL_INITIAL;
     use super::*;
 
-    fn view() -> View {
-        View::of(&ControlPacket::read(HSL_INITIAL).unwrap(), [0, 1], [4, 4])
+    fn view() -> BoxView {
+        BoxView::of(&ControlPacket::read(HSL_INITIAL).unwrap(), [0, 1], [4, 4])
     }
 
     #[test]
     fn a_match_may_be_over_when_its_second_half_is_and_sooner_if_there_is_a_winner() {
-        let finished = View { state: State::Finished, first_half: false, score: [1, 0], ..view() };
+        let finished = BoxView { state: State::Finished, first_half: false, score: [1, 0], ..view() };
         assert_eq!(finished.done_after(), Some(20.0));
-        assert_eq!(View { score: [1, 1], ..finished.clone() }.done_after(), Some(300.0));
-        let shots = View { game_phase: GamePhase::PenaltyShootOut, ..finished.clone() };
+        assert_eq!(BoxView { score: [1, 1], ..finished.clone() }.done_after(), Some(300.0));
+        let shots = BoxView { game_phase: GamePhase::PenaltyShootOut, ..finished.clone() };
         assert_eq!(shots.done_after(), Some(300.0), "the next shot comes");
-        let extra = View { game_phase: GamePhase::ExtraTime, ..finished.clone() };
+        let extra = BoxView { game_phase: GamePhase::ExtraTime, ..finished.clone() };
         assert_eq!(extra.done_after(), Some(20.0));
-        assert_eq!(View { first_half: true, ..extra }.done_after(), None);
-        assert_eq!(View { state: State::Playing, ..finished }.done_after(), None);
+        assert_eq!(BoxView { first_half: true, ..extra }.done_after(), None);
+        assert_eq!(BoxView { state: State::Playing, ..finished }.done_after(), None);
     }
 
     #[test]
     fn players_who_take_part_for_the_box_and_not_here_are_named() {
         assert_eq!(view().missing, [vec![4, 5, 6], vec![4, 5, 6]], "its others are substitutes");
         let packet = ControlPacket::read(HSL_INITIAL).unwrap();
-        assert_eq!(View::of(&packet, [0, 1], [7, 3]).missing, [vec![], vec![3, 4, 5, 6]]);
+        assert_eq!(BoxView::of(&packet, [0, 1], [7, 3]).missing, [vec![], vec![3, 4, 5, 6]]);
     }
 
     #[test]
     fn what_is_unknown_is_not_obeyed_and_says_so() {
         assert_eq!(view().not_obeyed(), []);
-        let odd = View { state: State::Other(9), set_play: SetPlay::Other(8), ..view() };
+        let odd = BoxView { state: State::Other(9), set_play: SetPlay::Other(8), ..view() };
         assert_eq!(
             odd.not_obeyed(),
             [NotObeyed::State(State::Other(9)), NotObeyed::SetPlay(SetPlay::Other(8))]
         );
         assert!(odd.not_obeyed()[1].to_string().contains("code 8"));
-        let nobodys = View { set_play: SetPlay::CornerKick, kicking: None, ..view() };
+        let nobodys = BoxView { set_play: SetPlay::CornerKick, kicking: None, ..view() };
         assert_eq!(nobodys.not_obeyed()[0].to_string(), "a corner kick for neither team: both play on");
     }
 }

@@ -4,12 +4,12 @@ use bevy::prelude::Vec2;
 
 use crate::ids::{RobotId, Team};
 use crate::world::gamecontroller::control::SetPlay;
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::BoxView;
 
 /// What a referee box has said last.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxStatement<'a> {
-    pub view: &'a View,
+    pub view: &'a BoxView,
     /// Seconds since it said so.
     pub silence: f64,
     /// Whether it has been silent for so long that it is lost.

@@ -65,7 +65,8 @@ fn a_box_that_is_lost_stops_the_play_until_it_is_heard_again() {
 fn another_box_is_followed_only_when_the_first_one_is_silent() {
     let mut refereed = Refereed::playing(talkative(10.0));
     let first = std::mem::replace(&mut refereed.socket, stranger());
-    refereed.say(|says| (says.state, says.packet_number) = (State::Initial, 200));
+    refereed.says.packet_number = 200;
+    refereed.say(|says| says.state = State::Initial);
     assert_eq!((refereed.phase(), refereed.heard().sender), (Phase::Playing, 1));
     refereed.silence(120);
     refereed.say(|says| says.score = [5, 0]);
@@ -142,31 +143,33 @@ fn a_robot_that_moved_in_set_stands_where_it_is_and_keeps_what_it_knows() {
         found.map(|(_, model)| (model.pose.position, model.ball.is_some())).expect("the robot is there")
     };
     let before = believed(&mut refereed);
-    let sentence = Sentence { side: 0, player: 1, penalty: Penalty::MotionInSet, seconds_left: 15.0 };
-    refereed.say(|says| says.penalties = vec![sentence]);
+    let moved = Penalised { player: 1, penalty: Penalty::MotionInSet, seconds_left: 15 };
+    refereed.say(|says| says.penalties[0] = vec![moved]);
     refereed.say(|says| says.state = State::Playing);
     assert_eq!(refereed.orders(robot), (RobotState::Penalised, false));
     let after = believed(&mut refereed);
     assert!(before.0.distance(after.0) < 0.2 && before.1 == after.1, "{before:?}, {after:?}");
     let moves = driven(&mut refereed, 120);
     assert!(moves[1] < 0.01 && moves.iter().any(|way| *way > 0.1), "others play: {moves:?}");
-    let sentence = Sentence { penalty: Penalty::Pushing, ..sentence };
-    refereed.say(|says| says.penalties = vec![sentence]);
+    let pushed = Penalised { penalty: Penalty::Pushing, ..moved };
+    refereed.say(|says| says.penalties[0] = vec![pushed]);
     assert_eq!(refereed.orders(robot), (RobotState::Penalised, true));
 }
 
 #[test]
 fn substitutes_and_players_beyond_the_boxs_number_do_not_play() {
     let mut refereed = Refereed::playing(talkative(10.0));
-    let substitute = Sentence { side: 0, player: 2, penalty: Penalty::Substitute, seconds_left: 0.0 };
-    refereed.say(|says| (says.penalties, says.players_per_team) = (vec![substitute], 3));
+    let substitute = Penalised { player: 2, penalty: Penalty::Substitute, seconds_left: 0 };
+    refereed.says.players_per_team = 3;
+    refereed.say(|says| says.penalties[0] = vec![substitute]);
     let off = [(Team::Home, 2), (Team::Home, 3), (Team::Away, 3)].map(|(team, n)| RobotId::new(team, n));
     refereed.ticks(60);
     for robot in off {
         assert_eq!(refereed.orders(robot), (RobotState::Penalised, true), "{robot}");
     }
     assert_eq!(movers(&mut refereed).len(), 5);
-    refereed.say(|says| (says.penalties, says.players_per_team) = (vec![], 4));
+    refereed.says.players_per_team = 4;
+    refereed.say(|says| says.penalties[0].clear());
     refereed.ticks(60);
     assert_eq!(movers(&mut refereed).len(), 8);
 }
@@ -174,7 +177,7 @@ fn substitutes_and_players_beyond_the_boxs_number_do_not_play() {
 #[test]
 fn the_first_packet_of_a_second_half_tells_sides_and_ends() {
     let mut refereed = Refereed::new(talkative(10.0));
-    refereed.says.left = 1;
+    refereed.says.view.left = 1;
     refereed.say(|says| (says.state, says.first_half, says.score) = (State::Playing, false, [1, 0]));
     let state = refereed.game.state();
     assert_eq!((state.half, state.score), (2, [1, 0]));
@@ -184,11 +187,9 @@ fn the_first_packet_of_a_second_half_tells_sides_and_ends() {
     assert!(robots.iter().all(|(_, at)| pitch.holds(*at, 0.0)), "nobody waits beside the pitch");
     // And a new match of the box, after it was silent.
     refereed.silence(180);
-    refereed.says.left = 0;
-    refereed.say(|says| {
-        (says.state, says.first_half, says.score) = (State::Initial, true, [0, 0]);
-        says.packet_number = 0;
-    });
+    refereed.says.view.left = 0;
+    refereed.says.packet_number = u8::MAX;
+    refereed.say(|says| (says.state, says.first_half, says.score) = (State::Initial, true, [0, 0]));
     let state = refereed.game.state();
     assert_eq!((state.phase, state.half, state.score), (Phase::Initial, 1, [0, 0]));
     assert!(state.attacking(Team::Home).turn(Vec2::X).x > 0.0);
@@ -199,7 +200,7 @@ fn the_first_packet_of_a_second_half_tells_sides_and_ends() {
 #[test]
 fn extra_time_and_a_shoot_out_follow_and_every_version_is_understood() {
     let mut refereed = Refereed::playing(talkative(10.0));
-    refereed.says.left = 1;
+    refereed.says.view.left = 1;
     refereed.say(|says| (says.state, says.first_half) = (State::Finished, false));
     refereed.ticks(60 * 60);
     assert!(!refereed.game.is_over(), "nobody has won");
@@ -207,10 +208,11 @@ fn extra_time_and_a_shoot_out_follow_and_every_version_is_understood() {
         Version::ALL.into_iter().zip([GamePhase::ExtraTime, GamePhase::TimeOut, GamePhase::PenaltyShootOut])
     {
         let state = if phase == GamePhase::TimeOut { State::Initial } else { State::Playing };
-        refereed.says.left = 0;
-        (refereed.says.state, refereed.says.first_half) = (state, true);
+        refereed.says.view.left = 0;
+        (refereed.says.view.state, refereed.says.view.first_half) = (state, true);
         refereed.says.packet_number += 1;
-        let packet = Standing { version, game_phase: phase, ..refereed.says.clone() };
+        let view = BoxView { game_phase: phase, ..refereed.says.view.clone() };
+        let packet = MatchAnnouncement { version, view, ..refereed.says.clone() };
         refereed.send(&packet.packet().write());
         refereed.silence(1);
         let moving = movers(&mut refereed).len();

@@ -133,10 +133,10 @@ fn team_numbers_come_from_the_match_file_and_an_option_is_stronger() {
         std::fs::write(&file, text).expect("the file is written");
         let choice = Choice {
             file: Some(file.to_string_lossy().into_owned()),
-            wires: Box::new(WirePlan { team_numbers: option, ..WirePlan::default() }),
+            network: Box::new(NetworkPlan { team_numbers: option, ..NetworkPlan::default() }),
             ..Choice::default()
         };
-        MatchPlan::read(&crate::support::assets(), &choice).map(|plan| plan.wires.team_numbers)
+        MatchPlan::read(&crate::support::assets(), &choice).map(|plan| plan.network.team_numbers)
     };
     assert_eq!(read("", "", None), Ok(None));
     assert_eq!(read("team_number: 6, ", "team_number: 9, ", None), Ok(Some([6, 9])));

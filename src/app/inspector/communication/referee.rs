@@ -11,7 +11,7 @@ use crate::ids::{RobotId, Team};
 use crate::robot::Orders;
 use crate::world::gamecontroller::BoxNews;
 use crate::world::gamecontroller::control::SetPlay;
-use crate::world::gamecontroller::referee_box::{Heard, View};
+use crate::world::gamecontroller::referee_box::{BoxView, PacketCounts};
 use crate::world::gamecontroller::serving::Serving;
 use crate::world::referee::MatchState;
 
@@ -41,8 +41,8 @@ const FATES: [(&str, &str); 8] = [
 ];
 
 /// In the order of [`FATES`].
-fn fates(heard: &Heard) -> [u64; 8] {
-    let Heard { news, repeated, not_ours, version, length, teams, sender, stale } = *heard;
+fn fates(heard: &PacketCounts) -> [u64; 8] {
+    let PacketCounts { news, repeated, not_ours, version, length, teams, sender, stale } = *heard;
     [news, repeated, not_ours, version, length, teams, sender, stale]
 }
 
@@ -60,7 +60,7 @@ pub fn show(
             if let Some(news) = news {
                 ui.vertical(|ui| {
                     heading(ui, &PACKETS);
-                    for ((name, tip), count) in FATES.into_iter().zip(fates(&news.heard)) {
+                    for ((name, tip), count) in FATES.into_iter().zip(fates(&news.heard())) {
                         row(ui, &PACKETS, [name.into(), count.to_string()]).on_hover_text(tip);
                     }
                 });
@@ -88,7 +88,7 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
         }
         Some(news) => {
             let ago = format::seconds(format::span(news.last, clock.tick, clock.dt));
-            let who = match (news.sender, news.team_numbers) {
+            let who = match (news.sender(), news.team_numbers()) {
                 (Some((at, version)), Some([home, away])) => {
                     let version = version as u8;
                     format!(" at {at} (version {version}, home is team {home}, away team {away})")
@@ -122,15 +122,15 @@ fn show_match(ui: &mut egui::Ui, news: Option<&BoxNews>, state: &MatchState, clo
 }
 
 /// What the box says beside what is: name, the one if anything was said, and the other.
-fn rows(view: Option<&View>, state: &MatchState) -> [(&'static str, Option<String>, String); 8] {
+fn rows(view: Option<&BoxView>, state: &MatchState) -> [(&'static str, Option<String>, String); 8] {
     let score = |[home, away]: [u32; 2]| format!("{home} : {away}");
     let half = |first: bool| if first { "first" } else { "second" }.to_owned();
     let team = |side: usize| Team::BOTH.get(side).map_or(format::UNKNOWN.into(), Team::to_string);
     let kicks_off = Team::BOTH.into_iter().find(|team| state.kicks_off(*team));
     let kicks_off = kicks_off.map_or("nobody".into(), |team| team.to_string());
-    let said = |words: &dyn Fn(&View) -> String| view.map(words);
+    let said = |words: &dyn Fn(&BoxView) -> String| view.map(words);
     let stops = |stopped: bool| if stopped { "stopped" } else { "goes on" }.to_owned();
-    let play = |view: &View| match view.set_play {
+    let play = |view: &BoxView| match view.set_play {
         SetPlay::None => "none".to_owned(),
         play => play.to_string(),
     };
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     fn every_packet_stands_beside_its_own_fate() {
-        let heard = Heard { news: 1, not_ours: 3, stale: 7, ..Heard::default() };
+        let heard = PacketCounts { news: 1, not_ours: 3, stale: 7, ..PacketCounts::default() };
         let named: Vec<_> = FATES.iter().map(|(name, _)| *name).zip(fates(&heard)).collect();
         assert_eq!((named[0], named[2], named[7]), (("news", 1), ("of something else", 3), ("overtaken", 7)));
     }

@@ -65,7 +65,7 @@ pub(super) fn draw(
     };
     for mate in mates.iter().filter(|mate| !mate.off_pitch) {
         let Some(at) = place_of(*mate.id) else { continue };
-        let works = !mate.robot.condition.crashed;
+        let works = !mate.robot.health.crashed;
         let reach = reach(&mate.robot.kind);
         if works && mate.team_model.has_ball {
             pens.strong.circle_2d(at, CLAIM * reach, colours::CLAIM).resolution(48);

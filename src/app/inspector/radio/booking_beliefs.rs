@@ -48,7 +48,7 @@ fn look(
 ) {
     let tick = clock.tick.saturating_sub(1);
     for (id, robot, booking) in &robots {
-        let belief = BookingBelief::of(&booking.0, tick).filter(|_| !robot.condition.crashed);
+        let belief = BookingBelief::of(&booking.0, tick).filter(|_| !robot.health.crashed);
         history.note(tick, *id, belief);
     }
 }

@@ -11,7 +11,7 @@ use super::layout::Axes;
 use crate::app::view::{colours, format};
 use crate::game::record::{BookingFigures, Span};
 use crate::ids::{RobotId, Team};
-use crate::robot::Condition;
+use crate::robot::Health;
 
 /// Heights of a bar: of a robot that goes to the ball itself, and of one that leaves it to another, in points.
 const BARS: (f32, f32) = (18.0, 9.0);
@@ -21,7 +21,7 @@ const NUMBERED: f32 = 13.0;
 pub fn show(
     ui: &mut egui::Ui,
     team: Team,
-    robots: &[(RobotId, Condition)],
+    robots: &[(RobotId, Health)],
     heard: &RadioData,
     view: &mut RadioView,
 ) {
@@ -39,10 +39,10 @@ pub fn show(
     });
     let (axes, response) = show_lanes(ui, robots.len(), heard, view);
     let painter = ui.painter_at(axes.rect);
-    for (lane, (robot, condition)) in robots.iter().enumerate() {
+    for (lane, (robot, health)) in robots.iter().enumerate() {
         let at = pos2(response.rect.left() + 2.0, axes.y(lane));
         let colour = colours::egui(colours::team_text(robot.team));
-        let colour = if condition.crashed { colour.gamma_multiply(0.5) } else { colour };
+        let colour = if health.crashed { colour.gamma_multiply(0.5) } else { colour };
         let font = egui::FontId::proportional(TEXT);
         ui.painter().text(at, Align2::LEFT_CENTER, format!("{robot} believes"), font, colour);
         let quiet = colours::egui(colours::QUIET).gamma_multiply(0.3);
@@ -58,7 +58,7 @@ pub fn show(
 fn paint_beliefs(
     painter: &egui::Painter,
     axes: &Axes,
-    robots: &[(RobotId, Condition)],
+    robots: &[(RobotId, Health)],
     heard: &RadioData,
     pointer: Option<Pos2>,
 ) -> Option<String> {
@@ -101,7 +101,7 @@ fn bar_of(span: &HistorySpan<BookingBelief>, axes: &Axes, lane: usize) -> Option
 }
 
 /// The colour of each booker.
-fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Condition)]) {
+fn show_key(ui: &mut egui::Ui, robots: &[(RobotId, Health)]) {
     ui.weak("booker");
     for (robot, _) in robots {
         let (rect, response) = ui.allocate_exact_size(vec2(18.0, 16.0), egui::Sense::hover());

@@ -15,7 +15,7 @@ use crate::comms::messages::TeamMessage;
 use crate::comms::radio::Transmission;
 use crate::comms::tcm::Data;
 use crate::ids::RobotId;
-use crate::robot::Condition;
+use crate::robot::Health;
 
 /// A message may have been sent so long before the time that is shown and arrive within it, s.
 const LONGEST_WAY: f32 = 4.0;
@@ -25,7 +25,7 @@ const NEAR: f32 = 5.0;
 const CROWDED: usize = 150;
 const MANY: usize = 700;
 
-pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, view: &mut RadioView) {
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Health)], heard: &RadioData, view: &mut RadioView) {
     show_filters(ui, view);
     let lanes: Vec<RobotId> = robots.iter().map(|(robot, _)| *robot).collect();
     let (axes, response) = show_lanes(ui, lanes.len(), heard, view);
@@ -82,14 +82,14 @@ fn show_names(
     ui: &mut egui::Ui,
     rect: Rect,
     axes: &Axes,
-    robots: &[(RobotId, Condition)],
+    robots: &[(RobotId, Health)],
     view: &mut RadioView,
 ) {
-    for (lane, (robot, condition)) in robots.iter().enumerate() {
+    for (lane, (robot, health)) in robots.iter().enumerate() {
         let place = Rect::from_center_size(pos2(rect.left() + NAMES / 2.0, axes.y(lane)), vec2(NAMES, 20.0));
         let mut shown = view.filter.shows(*robot);
         let mut name = RichText::new(robot.to_string()).color(colours::egui(colours::team_text(robot.team)));
-        if condition.crashed {
+        if health.crashed {
             name = name.strikethrough();
         }
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt(robot.to_string()));

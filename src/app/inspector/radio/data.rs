@@ -13,7 +13,7 @@ use crate::comms::radio::{Interference, RadioRecord};
 use crate::game::record::Record;
 use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::Lock;
-use crate::robot::{Condition, Robot};
+use crate::robot::{Health, Robot};
 use crate::strategy::Strategies;
 
 /// What of the radio is looked at.
@@ -81,9 +81,9 @@ impl RadioData<'_, '_> {
     }
 
     /// The robots of a team, by number.
-    pub fn team(&self, team: Team) -> Vec<(RobotId, Condition)> {
+    pub fn team(&self, team: Team) -> Vec<(RobotId, Health)> {
         let robots = self.robots.iter().filter(|(id, _)| id.team == team);
-        let mut robots: Vec<_> = robots.map(|(id, robot)| (*id, robot.condition)).collect();
+        let mut robots: Vec<_> = robots.map(|(id, robot)| (*id, robot.health)).collect();
         robots.sort_unstable_by_key(|(id, _)| *id);
         robots
     }

@@ -6,9 +6,9 @@ use super::data::RadioData;
 use crate::app::inspector::pending::Pending;
 use crate::app::view::colours;
 use crate::comms::radio::{LinkCounters, Loss};
-use crate::game::requests::{Request, Requests, Treatment, Weather};
+use crate::game::requests::{RadioChange, Request, Requests, RobotChange};
 use crate::ids::RobotId;
-use crate::robot::{Ailment, Condition, Recall};
+use crate::robot::{Health, Restart, RobotFailure};
 
 /// Width of a column of figures, in points.
 const COLUMN: f32 = 58.0;
@@ -23,7 +23,7 @@ const FIGURES: [(&str, &str); 6] = [
     ("heard", "Messages that it heard"),
 ];
 
-pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioData, requests: &mut Requests) {
+pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Health)], heard: &RadioData, requests: &mut Requests) {
     egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         egui::Grid::new("robots on the radio").num_columns(4).spacing([12.0, 5.0]).show(ui, |ui| {
             ui.weak("robot");
@@ -35,21 +35,15 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Condition)], heard: &RadioDat
             ui.weak("befalls it");
             ui.weak("and ends");
             ui.end_row();
-            for (robot, condition) in robots {
-                show_robot(ui, *robot, *condition, heard, requests);
+            for (robot, health) in robots {
+                show_robot(ui, *robot, *health, heard, requests);
                 ui.end_row();
             }
         });
     });
 }
 
-fn show_robot(
-    ui: &mut egui::Ui,
-    robot: RobotId,
-    condition: Condition,
-    heard: &RadioData,
-    requests: &mut Requests,
-) {
+fn show_robot(ui: &mut egui::Ui, robot: RobotId, health: Health, heard: &RadioData, requests: &mut Requests) {
     let name = RichText::new(robot.to_string()).color(colours::egui(colours::team_text(robot.team)));
     ui.label(name);
     let sent = heard.radio.sent_by(robot);
@@ -63,61 +57,64 @@ fn show_robot(
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
-        show_ailments(ui, robot, condition, requests);
+        show_failures(ui, robot, health, requests);
         show_cut_off(ui, robot, heard.interference.cut_off.contains(&robot), requests);
     });
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let asked = requests.iter().any(
-            |request| matches!(request, Request::Robot(of, Treatment::Revive(_)) if *of == robot),
+            |request| matches!(request, Request::Robot(of, RobotChange::Revive(_)) if *of == robot),
         );
-        for (recall, name, tip) in [
+        for (restart, name, tip) in [
             (
-                Recall::Kept,
+                Restart::Kept,
                 "Revive",
                 "All is well again. If it had crashed, it is switched on and still knows its role and its counters",
             ),
-            (Recall::Lost, "Revive as new", "All is well again. If it had crashed, it has forgotten everything"),
+            (Restart::Lost, "Revive as new", "All is well again. If it had crashed, it has forgotten everything"),
         ] {
-            let button = ui.add_enabled(!condition.is_well() && !asked, egui::Button::new(name));
+            let button = ui.add_enabled(!health.is_well() && !asked, egui::Button::new(name));
             if button.on_hover_text(tip).clicked() {
-                requests.ask(Request::Robot(robot, Treatment::Revive(recall)));
+                requests.ask(Request::Robot(robot, RobotChange::Revive(restart)));
             }
         }
     });
 }
 
-fn show_ailments(ui: &mut egui::Ui, robot: RobotId, condition: Condition, requests: &mut Requests) {
-    for (ailment, name, tip) in [
-        (Ailment::Crashed, "Crash", "Switches its computer off: it stands still, silent and deaf"),
-        (Ailment::Frozen, "Freeze", "Switches its wheels off; it goes on thinking and talking"),
-        (Ailment::Deaf, "Deaf", "It hears nothing any more"),
-        (Ailment::Mute, "Mute", "Nothing that it says goes on air any more"),
+fn show_failures(ui: &mut egui::Ui, robot: RobotId, health: Health, requests: &mut Requests) {
+    for (failure, name, tip) in [
+        (RobotFailure::Crashed, "Crash", "Switches its computer off: it stands still, silent and deaf"),
+        (RobotFailure::Frozen, "Freeze", "Switches its wheels off; it goes on thinking and talking"),
+        (RobotFailure::Deaf, "Deaf", "It hears nothing any more"),
+        (RobotFailure::Mute, "Mute", "Nothing that it says goes on air any more"),
     ] {
-        let has = condition.with(ailment) == condition;
+        let has = health.with(failure) == health;
         let asked = requests.iter().any(|request| {
-            matches!(request, Request::Robot(of, Treatment::Afflict(one)) if *of == robot && *one == ailment)
+            matches!(request, Request::Robot(of, RobotChange::Fail(one)) if *of == robot && *one == failure)
         });
         let button = ui.add(egui::Button::new(name).selected(has || asked));
         let tip = if has { format!("{tip}. It is so: revive it to end that") } else { tip.to_owned() };
         if button.on_hover_text(tip).clicked() && !has && !asked {
-            requests.ask(Request::Robot(robot, Treatment::Afflict(ailment)));
+            requests.ask(Request::Robot(robot, RobotChange::Fail(failure)));
         }
     }
 }
 
 fn show_cut_off(ui: &mut egui::Ui, robot: RobotId, in_force: bool, requests: &mut Requests) {
     let cut_off = Pending::new(in_force, requests, |request| match request {
-        Request::Air(Weather::CutOff(of)) if *of == robot => Some(true),
-        Request::Air(Weather::Reconnect(of)) if *of == robot => Some(false),
+        Request::Radio(RadioChange::CutOff(of)) if *of == robot => Some(true),
+        Request::Radio(RadioChange::Reconnect(of)) if *of == robot => Some(false),
         _ => None,
     })
     .shown();
-    let (words, weather) =
-        if cut_off { ("Reconnect", Weather::Reconnect(robot)) } else { ("Cut off", Weather::CutOff(robot)) };
+    let (words, weather) = if cut_off {
+        ("Reconnect", RadioChange::Reconnect(robot))
+    } else {
+        ("Cut off", RadioChange::CutOff(robot))
+    };
     let tip = "A robot that is cut off hears nobody and is heard by nobody";
     if ui.add(egui::Button::new(words).selected(cut_off)).on_hover_text(tip).clicked() {
-        requests.ask(Request::Air(weather));
+        requests.ask(Request::Radio(weather));
     }
 }
 

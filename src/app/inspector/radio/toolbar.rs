@@ -6,7 +6,7 @@ use super::data::{RadioData, RadioPage, RadioView};
 use crate::app::inspector::pending::Pending;
 use crate::app::view::colours;
 use crate::app::view::state::Selected;
-use crate::game::requests::{Request, Requests, Weather};
+use crate::game::requests::{RadioChange, Request, Requests};
 use crate::ids::Team;
 
 /// Width of a slider, in points.
@@ -42,7 +42,7 @@ fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     ui.spacing_mut().slider_width = SLIDER;
     let interference = &heard.interference;
     let loss = Pending::new(interference.extra_loss, requests, |request| match request {
-        Request::Air(Weather::ExtraLoss(share)) => Some(*share),
+        Request::Radio(RadioChange::ExtraLoss(share)) => Some(*share),
         _ => None,
     })
     .shown();
@@ -51,10 +51,10 @@ fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     let slider = egui::Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).fixed_decimals(0).suffix(" %");
     let tip = "Chance that a message is lost which the radio itself would have brought over";
     if ui.add(slider).on_hover_text(tip).changed() {
-        requests.ask(Request::Air(Weather::ExtraLoss(percent / 100.0)));
+        requests.ask(Request::Radio(RadioChange::ExtraLoss(percent / 100.0)));
     }
     let delay = Pending::new(interference.extra_delay, requests, |request| match request {
-        Request::Air(Weather::ExtraDelay(seconds)) => Some(*seconds),
+        Request::Radio(RadioChange::ExtraDelay(seconds)) => Some(*seconds),
         _ => None,
     })
     .shown();
@@ -63,22 +63,22 @@ fn show_weather(ui: &mut egui::Ui, heard: &RadioData, requests: &mut Requests) {
     let slider =
         egui::Slider::new(&mut seconds, 0.0..=LONGEST_DELAY).step_by(0.05).fixed_decimals(2).suffix(" s");
     if ui.add(slider).on_hover_text("Added to the way of every message").changed() {
-        requests.ask(Request::Air(Weather::ExtraDelay(seconds)));
+        requests.ask(Request::Radio(RadioChange::ExtraDelay(seconds)));
     }
     let jammed = Pending::new(interference.jammed, requests, |request| match request {
-        Request::Air(Weather::Jam(jammed)) => Some(*jammed),
+        Request::Radio(RadioChange::Jam(jammed)) => Some(*jammed),
         _ => None,
     })
     .shown();
     let words = if jammed { "Jammed: end it" } else { "Jam" };
     let tip = "While the radio is jammed, no message of either team gets through";
     if ui.add(egui::Button::new(words).selected(jammed)).on_hover_text(tip).clicked() {
-        requests.ask(Request::Air(Weather::Jam(!jammed)));
+        requests.ask(Request::Radio(RadioChange::Jam(!jammed)));
     }
     if !interference.partitions.is_empty() {
         let heal = ui.button("Heal").on_hover_text("Ends all partitions");
         if heal.clicked() {
-            requests.ask(Request::Air(Weather::Heal));
+            requests.ask(Request::Radio(RadioChange::Heal));
         }
     }
 }

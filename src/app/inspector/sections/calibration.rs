@@ -7,7 +7,7 @@ use crate::app::inspector::calibration::{KNOBS, Knob, RobotValues};
 use crate::app::inspector::pending::Pending;
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::inspector::tuner::{RESET, ROW, Tuner};
-use crate::game::requests::{Request, Treatment};
+use crate::game::requests::{Request, RobotChange};
 
 /// Widths of a slider and of a number, in points.
 const WIDTHS: (f32, f32) = (118.0, 88.0);
@@ -15,7 +15,7 @@ const WIDTHS: (f32, f32) = (118.0, 88.0);
 pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
     let in_force = RobotValues::of(&robot.of.robot.kind, &robot.of.robot.sensing);
     let pending = Pending::new(in_force, actions.requests, |request| match request {
-        Request::Robot(id, Treatment::Recalibrate(asked)) if *id == robot.id => {
+        Request::Robot(id, RobotChange::Recalibrate(asked)) if *id == robot.id => {
             Some(RobotValues::of(&asked.kind, &asked.sensing))
         }
         _ => None,
@@ -44,8 +44,8 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut Panel
         show(ui, knob, value, *filed);
     }
     if values != before {
-        let treatment = Treatment::Recalibrate(values.calibration());
-        actions.requests.ask(Request::Robot(robot.id, treatment));
+        let change = RobotChange::Recalibrate(values.calibration());
+        actions.requests.ask(Request::Robot(robot.id, change));
     }
 }
 

@@ -147,7 +147,7 @@ fn write_on_pitch(
         write_number(&painter, at, &plate, camera.scale);
         let locked = robot.swapping.is_some_and(|swapping| swapping.machine.lock().is_some());
         let cut_off = interference.cut_off.contains(robot.id);
-        let signs = StatusIcon::of(robot.robot.condition, robot.off_pitch, cut_off, locked);
+        let signs = StatusIcon::of(robot.robot.health, robot.off_pitch, cut_off, locked);
         let corner = nearest_within(edge, middle + egui::vec2(0.8, -0.8) * reach);
         let corner =
             if corner.distance(at) < 1.5 * PLATE { at + egui::vec2(1.5 * PLATE, 0.0) } else { corner };

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use crate::app::view::colours::{self, egui as paint};
 use crate::geometry::unit;
-use crate::robot::Condition;
+use crate::robot::Health;
 
 /// What is the matter with a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,18 +39,13 @@ impl StatusIcon {
     ];
 
     /// The signs of a robot.
-    pub fn of(
-        condition: Condition,
-        off_pitch: bool,
-        cut_off: bool,
-        locked: bool,
-    ) -> SmallVec<[StatusIcon; 4]> {
+    pub fn of(health: Health, off_pitch: bool, cut_off: bool, locked: bool) -> SmallVec<[StatusIcon; 4]> {
         let shown = |sign: &StatusIcon| match sign {
             StatusIcon::Penalised => off_pitch,
-            StatusIcon::Crashed => condition.crashed,
-            StatusIcon::Frozen => condition.frozen,
-            StatusIcon::Deaf => condition.deaf,
-            StatusIcon::Mute => condition.mute,
+            StatusIcon::Crashed => health.crashed,
+            StatusIcon::Frozen => health.frozen,
+            StatusIcon::Deaf => health.deaf,
+            StatusIcon::Mute => health.mute,
             StatusIcon::CutOff => cut_off,
             StatusIcon::Locked => locked,
         };
@@ -191,18 +186,18 @@ pub fn show_legend(ui: &mut egui::Ui) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::Ailment;
+    use crate::robot::RobotFailure;
 
     #[test]
     fn a_robot_has_a_sign_for_each_thing_that_is_wrong() {
-        let ill = Condition::default().with(Ailment::Deaf).with(Ailment::Frozen);
+        let ill = Health::default().with(RobotFailure::Deaf).with(RobotFailure::Frozen);
         assert_eq!(
             StatusIcon::of(ill, false, false, true).as_slice(),
             [StatusIcon::Frozen, StatusIcon::Deaf, StatusIcon::Locked]
         );
-        assert!(StatusIcon::of(Condition::default(), false, false, false).is_empty());
+        assert!(StatusIcon::of(Health::default(), false, false, false).is_empty());
         assert_eq!(
-            StatusIcon::of(Condition::default(), true, true, false).as_slice(),
+            StatusIcon::of(Health::default(), true, true, false).as_slice(),
             [StatusIcon::Penalised, StatusIcon::CutOff]
         );
     }

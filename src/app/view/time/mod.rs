@@ -14,7 +14,8 @@ use remote_robots::is_waiting;
 
 use super::state::{AfterTick, FileError, FrameSystems, OpenDialogues, Playback};
 use crate::clock::Clock;
-use crate::game::{advance, net};
+use crate::game::net;
+use crate::schedule::Tick;
 use crate::world::gamecontroller::BoxNews;
 use crate::world::referee::{MatchState, Phase};
 
@@ -49,7 +50,7 @@ fn pass_time(world: &mut World) {
     net::grant(world, ROBOTS_BUDGET);
     let began = Instant::now();
     for _ in 0..due {
-        advance(world);
+        world.run_schedule(Tick);
         world.run_schedule(AfterTick);
         if began.elapsed() > FRAME_BUDGET || is_over(world) {
             break;
@@ -132,9 +133,9 @@ mod tests {
     fn a_match_is_announced_twice_a_second_on_the_wall_at_any_speed_paused_and_over() {
         let ears = std::net::UdpSocket::bind("127.0.0.1:0").expect("there is a free port");
         ears.set_nonblocking(true).expect("sockets can do that");
-        let wires = net::WirePlan { announce: ears.local_addr().ok(), ..Default::default() };
-        let wires = Box::new(wires);
-        let choice = Choice { half_minutes: Some(0.5), seed: 3, wires, ..Choice::default() };
+        let network = net::NetworkPlan { announce: ears.local_addr().ok(), ..Default::default() };
+        let network = Box::new(network);
+        let choice = Choice { half_minutes: Some(0.5), seed: 3, network, ..Choice::default() };
         let mut app = played_without_a_window(&choice, Duration::from_millis(100));
         let heard = |app: &mut App, frames| {
             (0..frames).for_each(|_| app.update());

@@ -50,7 +50,7 @@ pub mod tests {
     use super::*;
     use crate::app::view::played_without_a_window;
     use crate::game::Choice;
-    use crate::game::net::WirePlan;
+    use crate::game::net::NetworkPlan;
     use crate::ids::Team;
     use crate::robot::Robot;
 
@@ -84,9 +84,9 @@ pub mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let addresses = folder.path().join("addresses.ron");
         let _silent = write_addresses(&addresses);
-        let wires = WirePlan { udp: true, remote: vec![REMOTE], ..WirePlan::default() };
+        let network = NetworkPlan { udp: true, remote: vec![REMOTE], ..NetworkPlan::default() };
         let choice =
-            Choice { wires: Box::new(wires), addresses: Some(addresses), seed: 3, ..Choice::default() };
+            Choice { network: Box::new(network), addresses: Some(addresses), seed: 3, ..Choice::default() };
         let mut app = played_without_a_window(&choice, Duration::from_millis(50));
         for _ in 0..10 {
             app.update();

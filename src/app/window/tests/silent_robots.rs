@@ -12,7 +12,7 @@ use crate::app::view::time::remote_robots::Missing;
 use crate::app::view::time::remote_robots::tests::{REMOTE, write_addresses};
 use crate::clock::Clock;
 use crate::comms::tcm::Peer;
-use crate::game::net::{self, RobotProcess, WirePlan};
+use crate::game::net::{self, NetworkPlan, RobotProcess};
 use crate::game::{Choice, MatchPlan};
 
 #[test]
@@ -20,8 +20,8 @@ fn robots_elsewhere_are_awaited_in_the_middle_and_who_falls_silent_in_play_is_na
     let folder = tempfile::tempdir().expect("a folder");
     let addresses = folder.path().join("addresses.ron");
     drop(write_addresses(&addresses));
-    let wires = Box::new(WirePlan { udp: true, remote: vec![REMOTE], ..WirePlan::default() });
-    let choice = Choice { wires, addresses: Some(addresses), seed: 3, ..Choice::default() };
+    let network = Box::new(NetworkPlan { udp: true, remote: vec![REMOTE], ..NetworkPlan::default() });
+    let choice = Choice { network, addresses: Some(addresses), seed: 3, ..Choice::default() };
     let plan = MatchPlan::read(&assets(), &choice).expect("the shipped match");
     let at = plan.directory().address_of(Peer::from(REMOTE)).expect("it has an address");
     let mut program = LaidOutWindow::with(MatchRequest::Match(choice));

@@ -2,7 +2,7 @@
 
 use super::super::by_hand;
 use crate::geometry::Attacking;
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::BoxView;
 use crate::world::referee::decision::Decision;
 use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::KickOffStyle;
@@ -10,7 +10,7 @@ use crate::world::referee::rules::observation::{Laws, Observation};
 use crate::world::referee::state::MatchState;
 
 /// Takes half and ends over, and tells whether the ends have changed.
-pub(super) fn follow(view: &View, state: &mut MatchState, decisions: &mut Vec<Decision>) -> bool {
+pub(super) fn follow(view: &BoxView, state: &mut MatchState, decisions: &mut Vec<Decision>) -> bool {
     let half = if view.first_half { 1 } else { 2 };
     if state.half == 1 && half == 2 {
         decisions.push(Decision::HalfEnded { half: 1 });

@@ -15,7 +15,7 @@ mod tests;
 
 use super::{out, touches};
 use crate::ids::Team;
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::BoxView;
 use crate::world::referee::decision::Decision;
 use crate::world::referee::followed::BoxStatement;
 use crate::world::referee::phase::Phase;
@@ -54,7 +54,7 @@ pub fn follow(
 }
 
 /// A score may also be taken back; then nobody is told.
-fn count_goals(view: &View, state: &mut MatchState, decisions: &mut Vec<Decision>) {
+fn count_goals(view: &BoxView, state: &mut MatchState, decisions: &mut Vec<Decision>) {
     let before = state.score;
     state.score = view.score;
     let scored = Team::BOTH.into_iter().filter(|team| view.score[team.index()] > before[team.index()]);

@@ -2,14 +2,14 @@
 
 use super::super::returns;
 use crate::ids::RobotId;
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::BoxView;
 use crate::world::gamecontroller::serving::Serving;
 use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::rules::observation::{Laws, Observation};
 use crate::world::referee::state::MatchState;
 
 pub(super) fn follow(
-    view: &View,
+    view: &BoxView,
     laws: &Laws,
     observation: &Observation,
     state: &mut MatchState,

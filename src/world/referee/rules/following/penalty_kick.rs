@@ -5,7 +5,7 @@ use bevy::prelude::Vec2;
 
 use crate::geometry::{Attacking, Pose};
 use crate::ids::{RobotId, Team};
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::BoxView;
 use crate::world::referee::decision::{Decision, PlacementReason};
 use crate::world::referee::followed::Duel;
 use crate::world::referee::phase::Phase;
@@ -31,7 +31,7 @@ impl Duel {
 }
 
 pub(super) fn follow(
-    view: &View,
+    view: &BoxView,
     laws: &Laws,
     observation: &Observation,
     state: &mut MatchState,

@@ -5,7 +5,7 @@ use bevy::prelude::Vec2;
 use super::super::by_hand;
 use super::ends::robots_placed;
 use crate::world::gamecontroller::control::State;
-use crate::world::gamecontroller::referee_box::{GONE_AFTER, View};
+use crate::world::gamecontroller::referee_box::{BoxView, GONE_AFTER};
 use crate::world::referee::decision::{Decision, PlacementReason};
 use crate::world::referee::followed::BoxStatement;
 use crate::world::referee::phase::Phase;
@@ -43,7 +43,7 @@ pub(super) fn follow(
 
 /// The phase that a box's state is for us; none for states that we do not know. After `Finished` more may follow: another
 /// half, extra time, or a whistle that is taken back.
-fn phase_of(view: &View) -> Option<Phase> {
+fn phase_of(view: &BoxView) -> Option<Phase> {
     match view.state {
         State::Initial | State::Standby | State::Finished => Some(Phase::Initial),
         State::Ready => Some(Phase::Ready),

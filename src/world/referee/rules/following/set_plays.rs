@@ -7,7 +7,7 @@ use super::super::returns;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::world::gamecontroller::control::SetPlay;
-use crate::world::gamecontroller::referee_box::View;
+use crate::world::gamecontroller::referee_box::BoxView;
 use crate::world::referee::decision::{Decision, PlacementReason};
 use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::ReturnPlace;
@@ -22,7 +22,7 @@ const ROUNDING: f32 = 0.01;
 const IN_PLAY: f32 = 0.2;
 
 pub(super) fn follow(
-    view: &View,
+    view: &BoxView,
     laws: &Laws,
     observation: &Observation,
     state: &mut MatchState,

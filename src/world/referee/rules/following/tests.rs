@@ -10,25 +10,12 @@ use crate::world::referee::rules::table::Table;
 
 const HOME_2: RobotId = RobotId::new(Team::Home, 2);
 
-fn view(state: State) -> View {
-    View {
-        state,
-        game_phase: GamePhase::Normal,
-        set_play: SetPlay::None,
-        stopped: false,
-        first_half: true,
-        left: 0,
-        kicking: Some(1),
-        score: [0, 0],
-        seconds_left: 600,
-        secondary_time: 0,
-        penalties: [vec![], vec![]],
-        missing: [vec![], vec![]],
-    }
+fn view(state: State) -> BoxView {
+    BoxView { state, kicking: Some(1), seconds_left: 600, ..BoxView::default() }
 }
 
 /// What is decided at one look at the table.
-fn hear(table: &mut Table, view: &View) -> Vec<Decision> {
+fn hear(table: &mut Table, view: &BoxView) -> Vec<Decision> {
     look(table, &BoxStatement { view, silence: 0.0, is_lost: false }, 0.02)
 }
 
@@ -70,7 +57,7 @@ fn a_ball_in_the_goal_is_a_goal_when_the_box_says_so_and_not_before() {
     }
     table.ball = Vec2::new(4.7, 0.0);
     assert_eq!(hear(&mut table, &view(State::Playing)), []);
-    let scored = View { score: [1, 0], ..view(State::Ready) };
+    let scored = BoxView { score: [1, 0], ..view(State::Ready) };
     let decisions = hear(&mut table, &scored);
     assert_eq!(decisions[0], Decision::Goal { by: Team::Home, score: [1, 0] });
     assert_eq!(table.state.score, [1, 0]);
@@ -92,8 +79,8 @@ fn a_penalised_robot_is_off_until_the_box_lets_it_back() {
 }
 
 /// A second half.
-fn second(state: State) -> View {
-    View { first_half: false, left: 1, ..view(state) }
+fn second(state: State) -> BoxView {
+    BoxView { first_half: false, left: 1, ..view(state) }
 }
 
 /// With the ball in play.
@@ -115,7 +102,7 @@ fn halves_and_ends_are_the_boxs_and_may_go_back() {
     assert!(turned.contains(&Decision::HalfEnded { half: 1 }), "{turned:?}");
     assert!(turned.contains(&Decision::RobotsPlaced { kick_off: Some(Team::Away) }), "at once: {turned:?}");
     assert_eq!(hear(&mut table, &second(State::Initial)), []);
-    hear(&mut table, &View { score: [3, 1], ..second(State::Playing) });
+    hear(&mut table, &BoxView { score: [3, 1], ..second(State::Playing) });
     hear(&mut table, &view(State::Initial));
     let state = &table.state;
     assert_eq!((state.half, state.home_attacks, state.score), (1, Attacking::East, [0, 0]), "a new match");
@@ -133,8 +120,8 @@ fn a_match_that_is_joined_in_its_second_half_has_its_ends_and_robots_on_the_pitc
 fn a_match_goes_on_after_its_second_half_for_as_long_as_the_box_wants() {
     let mut table = playing();
     let level = second(State::Finished);
-    let won = View { score: [1, 0], ..level.clone() };
-    let run = |table: &mut Table, view: &View, seconds: u32| {
+    let won = BoxView { score: [1, 0], ..level.clone() };
+    let run = |table: &mut Table, view: &BoxView, seconds: u32| {
         (0..seconds)
             .for_each(|_| drop(look(table, &BoxStatement { view, silence: 0.5, is_lost: false }, 1.0)));
         table.state.phase
@@ -142,14 +129,14 @@ fn a_match_goes_on_after_its_second_half_for_as_long_as_the_box_wants() {
     assert_eq!(run(&mut table, &won, 19), Phase::Initial);
     assert_eq!(run(&mut table, &second(State::Playing), 1), Phase::Playing, "the whistle is taken back");
     assert_eq!(run(&mut table, &level, 200), Phase::Initial, "extra time may come");
-    let extra = View { game_phase: GamePhase::ExtraTime, ..view(State::Playing) };
+    let extra = BoxView { game_phase: GamePhase::ExtraTime, ..view(State::Playing) };
     assert_eq!(run(&mut table, &extra, 1), Phase::Playing);
     assert_eq!((table.state.half, table.state.home_attacks), (1, Attacking::East));
-    assert_eq!(run(&mut table, &View { game_phase: GamePhase::ExtraTime, ..won }, 20), Phase::Initial);
+    assert_eq!(run(&mut table, &BoxView { game_phase: GamePhase::ExtraTime, ..won }, 20), Phase::Initial);
     let end =
         look(&mut table, &BoxStatement { view: &second(State::Finished), silence: 0.5, is_lost: false }, 1.0);
     assert_eq!(end, [], "nor has a level match an end");
-    let won = View { score: [2, 0], ..level };
+    let won = BoxView { score: [2, 0], ..level };
     assert_eq!(run(&mut table, &won, 1), Phase::Finished);
     assert!(table.state.following.finished_for > 20.0);
 }
@@ -169,7 +156,7 @@ fn a_box_that_falls_silent_after_the_end_ends_the_match() {
 #[test]
 fn all_stand_while_play_is_stopped_or_the_box_is_lost_and_the_clock_may_run_over() {
     let mut table = playing();
-    hear(&mut table, &View { stopped: true, seconds_left: -3, ..view(State::Playing) });
+    hear(&mut table, &BoxView { stopped: true, seconds_left: -3, ..view(State::Playing) });
     assert!(table.state.restraints.stopped && table.state.phase == Phase::Playing);
     assert_eq!((table.state.time_left, table.state.played), (-3.0, 0.0));
     hear(&mut table, &view(State::Playing));
@@ -197,7 +184,7 @@ fn motion_in_set_freezes_a_robot_and_a_substitute_is_taken_off() {
 #[test]
 fn nobody_kicks_off_at_a_dropped_ball() {
     let mut table = playing();
-    let decisions = hear(&mut table, &View { kicking: None, ..view(State::Ready) });
+    let decisions = hear(&mut table, &BoxView { kicking: None, ..view(State::Ready) });
     assert!(decisions.contains(&Decision::RobotsPlaced { kick_off: None }), "{decisions:?}");
     assert!(Team::BOTH.iter().all(|team| !table.state.kicks_off(*team)));
     hear(&mut table, &view(State::Playing));
@@ -205,8 +192,8 @@ fn nobody_kicks_off_at_a_dropped_ball() {
 }
 
 /// A set play of away.
-fn set_play(set_play: SetPlay) -> View {
-    View { set_play, stopped: true, ..view(State::Playing) }
+fn set_play(set_play: SetPlay) -> BoxView {
+    BoxView { set_play, stopped: true, ..view(State::Playing) }
 }
 
 #[test]
@@ -224,7 +211,7 @@ fn opponents_are_put_away_from_the_ball_of_a_set_play_and_kept_away() {
     table.ball = spot + Vec2::new(0.15, 0.0);
     let pushed = hear(&mut table, &set_play(SetPlay::DirectFreeKick));
     assert!(pushed.contains(&lies), "{pushed:?}");
-    let goes_on = View { stopped: false, ..set_play(SetPlay::DirectFreeKick) };
+    let goes_on = BoxView { stopped: false, ..set_play(SetPlay::DirectFreeKick) };
     assert_eq!(hear(&mut table, &goes_on), []);
     assert!(!table.state.restraints.holds(HOME_2));
     let back = spot + (table.place(HOME_2) - spot).normalize() * (least + 0.1);
@@ -248,7 +235,7 @@ fn the_ball_lies_in_the_corner_and_at_the_goalkeepers_area() {
         ] {
             let mut table = playing();
             table.ball = Vec2::new(0.5, -1.0);
-            hear(&mut table, &View { left, ..set_play(play) });
+            hear(&mut table, &BoxView { left, ..set_play(play) });
             assert!(table.ball.distance(Vec2::new(x, -y)) < 1e-4, "{play}: {}", table.ball);
         }
     }
@@ -260,7 +247,7 @@ fn at_a_penalty_kick_only_kicker_and_goalkeeper_take_part() {
         let mut table = playing();
         let game_phase = if shoot_out { GamePhase::PenaltyShootOut } else { GamePhase::Normal };
         let play = if shoot_out { SetPlay::None } else { SetPlay::PenaltyKick };
-        let kick = |state| View { set_play: play, game_phase, ..view(state) };
+        let kick = |state| BoxView { set_play: play, game_phase, ..view(state) };
         hear(&mut table, &kick(State::Ready));
         let (ball, half) = (table.ball, table.pitch.half_size());
         assert!(ball.y == 0.0 && ball.x < -half.x / 2.0, "away attacks west: {ball}");

@@ -8,15 +8,16 @@ use std::time::{Duration, Instant};
 use bevy::prelude::*;
 use serde::Serialize;
 
-use super::WireError;
 use super::carrier::{CarrierFigures, UdpCarrier};
+use super::error::NetworkError;
 use super::introduction::Introduction;
-use super::protocol::{Command, Sensors, datagrams, unused_number};
-use super::remote::DATAGRAMS_A_TICK;
+use super::remote_messages::{RobotReply, Sensors, datagrams};
+use super::timing::{DATAGRAMS_A_TICK, unused_number};
 use crate::clock::Clock;
-use crate::comms::tcm::fragments::{Assembly, Header, Limits};
+use crate::comms::tcm::fragments::{Assembly, Limits};
 use crate::comms::tcm::udp::UdpConn;
-use crate::comms::tcm::{Addresses, Data, HOST, Incoming, MessageBudgets, Peer, Tcm};
+use crate::comms::tcm::{Addresses, Data, HOST, MessageBudgets, Peer, Tcm};
+use crate::game::requests::{Requests, RobotWants};
 use crate::game::{MatchPlan, start_mind};
 use crate::ids::RobotId;
 use crate::mind::world_model::WorldModel;
@@ -73,7 +74,7 @@ pub enum RobotEnd {
 }
 
 /// What a robot has waited for.
-enum Turn {
+enum Awaiting {
     Sensors(SocketAddr, Box<Sensors>),
     End(RobotEnd),
 }
@@ -83,7 +84,7 @@ impl RobotProcess {
     ///
     /// # Errors
     /// If the address cannot be bound.
-    pub fn open(plan: &MatchPlan, id: RobotId, bind: SocketAddr) -> Result<RobotProcess, WireError> {
+    pub fn open(plan: &MatchPlan, id: RobotId, bind: SocketAddr) -> Result<RobotProcess, NetworkError> {
         let carrier = UdpCarrier::of(BTreeMap::from([(id, UdpConn::bind(bind)?)]));
         let (app, entity) = mind(plan, id, carrier);
         Ok(RobotProcess {
@@ -105,21 +106,28 @@ impl RobotProcess {
     ///
     /// # Errors
     /// If no match comes, or one to which the robot does not belong.
-    pub fn play(&mut self, patience: Duration, stops: &dyn Fn() -> bool) -> Result<RobotReport, WireError> {
+    pub fn play(
+        &mut self,
+        patience: Duration,
+        stops: &dyn Fn() -> bool,
+    ) -> Result<RobotReport, NetworkError> {
         self.heard = Instant::now();
         let ending = loop {
             match self.wait(patience, stops)? {
-                Turn::End(ending) => break ending,
-                Turn::Sensors(_, sensors) if sensors.orders.state == RobotState::Finished => {
+                Awaiting::End(ending) => break ending,
+                Awaiting::Sensors(_, sensors) if sensors.orders.state == RobotState::Finished => {
                     break RobotEnd::MatchOver;
                 }
-                Turn::Sensors(from, sensors) => {
+                Awaiting::Sensors(from, sensors) => {
                     self.feel(&sensors);
+                    let (tick, asked) = (sensors.tick, sensors.asked);
                     let world = self.app.world_mut();
+                    let mut requests = world.resource_mut::<Requests>();
+                    asked.into_iter().for_each(|request| requests.ask(request));
                     world.run_schedule(Tick);
                     world.clear_trackers();
                     self.answered += 1;
-                    self.answer(from, sensors.tick);
+                    self.answer(from, tick);
                 }
             }
         };
@@ -129,50 +137,46 @@ impl RobotProcess {
     }
 
     /// The next sensors. What team mates say meanwhile waits for the tick.
-    fn wait(&mut self, patience: Duration, stops: &dyn Fn() -> bool) -> Result<Turn, WireError> {
+    fn wait(&mut self, patience: Duration, stops: &dyn Fn() -> bool) -> Result<Awaiting, NetworkError> {
         loop {
             if stops() {
-                return Ok(Turn::End(RobotEnd::Stopped));
+                return Ok(Awaiting::End(RobotEnd::Stopped));
             }
             let left = patience.saturating_sub(self.heard.elapsed());
             if left.is_zero() {
                 return self.give_up(patience);
             }
             let Some((from, datagram)) = self.receive(left.min(LOOK)) else { continue };
-            match self.note(from, &datagram) {
-                Some((HOST, _)) => {
-                    if let Some(sensors) = self.hear_match(from, &datagram)? {
-                        return Ok(Turn::Sensors(from, sensors));
-                    }
-                }
-                Some(_) => {
-                    let mut incoming = self.app.world_mut().resource_mut::<Incoming>();
-                    if incoming.0.len() < DATAGRAMS_A_TICK {
-                        incoming.0.push((self.id, datagram.into()));
-                    }
-                }
-                None => {}
+            if self.accept(from, &datagram) == Some(HOST)
+                && let Some(sensors) = self.hear_match(from, &datagram)?
+            {
+                return Ok(Awaiting::Sensors(from, sensors));
             }
         }
     }
 
-    fn give_up(&self, patience: Duration) -> Result<Turn, WireError> {
+    fn give_up(&self, patience: Duration) -> Result<Awaiting, NetworkError> {
         if self.introduction.is_some() {
-            return Ok(Turn::End(RobotEnd::MatchGone));
+            return Ok(Awaiting::End(RobotEnd::MatchGone));
         }
         let directory = &self.app.world().resource::<Addresses>().0;
-        let address = directory.address_of(HOST).ok_or(WireError::NoAddress(HOST))?;
-        Err(WireError::NoMatch { robot: self.id, address, patience })
+        let address = directory.address_of(HOST).ok_or(NetworkError::NoAddress(HOST))?;
+        Err(NetworkError::NoMatch { robot: self.id, address, patience })
     }
 
-    fn note(&mut self, from: SocketAddr, datagram: &[u8]) -> Option<(Peer, Header)> {
+    /// Keeps what a mate or a computer says for the tick in which it is heard; tells who it was.
+    fn accept(&mut self, from: SocketAddr, datagram: &[u8]) -> Option<Peer> {
         let world = self.app.world_mut();
         let directory = world.resource::<Addresses>().0.clone();
-        world.resource_mut::<UdpCarrier>().note(from, datagram, &directory)
+        world.resource_mut::<UdpCarrier>().accept(self.id, from, datagram, &directory)
     }
 
     /// What a datagram of the match comes to: sensors, if it brings some of the match that has greeted the robot.
-    fn hear_match(&mut self, from: SocketAddr, datagram: &[u8]) -> Result<Option<Box<Sensors>>, WireError> {
+    fn hear_match(
+        &mut self,
+        from: SocketAddr,
+        datagram: &[u8],
+    ) -> Result<Option<Box<Sensors>>, NetworkError> {
         let Ok(Some(message)) = self.assembly.accept(0, datagram) else { return Ok(None) };
         let (data_type, data) = (message.data_type, message.data);
         if let Some(there) = Introduction::unserialise(data_type, &data) {
@@ -187,17 +191,17 @@ impl RobotProcess {
             return Ok(Some(Box::new(sensors)).filter(|_| known));
         }
         let difference = "it says what no match of this version says".into();
-        Err(WireError::OtherMatch { robot: self.id, address: from, difference })
+        Err(NetworkError::OtherMatch { robot: self.id, address: from, difference })
     }
 
     /// Introduces itself to a match that has introduced itself.
-    fn meet(&mut self, from: SocketAddr, there: &Introduction) -> Result<(), WireError> {
+    fn meet(&mut self, from: SocketAddr, there: &Introduction) -> Result<(), NetworkError> {
         let here = Introduction::new(&self.plan, self.id, there.session);
         if let Some(difference) = here.difference(there) {
             for _ in 0..LAST_WORDS {
                 self.send(from, &here);
             }
-            return Err(WireError::OtherMatch { robot: self.id, address: from, difference });
+            return Err(NetworkError::OtherMatch { robot: self.id, address: from, difference });
         }
         self.heard = Instant::now();
         let is_new = self.introduction.as_ref().is_none_or(|known| known.session != there.session);
@@ -205,6 +209,7 @@ impl RobotProcess {
             self.begin_again();
         }
         self.send(from, &here);
+        self.app.world_mut().resource_mut::<UdpCarrier>().session = there.session;
         self.introduction = Some(here);
         Ok(())
     }
@@ -226,7 +231,7 @@ impl RobotProcess {
     fn drain(&mut self) {
         for _ in 0..DATAGRAMS_A_TICK {
             let Some((from, datagram)) = self.receive(Duration::ZERO) else { break };
-            self.note(from, &datagram);
+            self.accept(from, &datagram);
         }
     }
 
@@ -267,14 +272,13 @@ impl RobotProcess {
         }
     }
 
-    fn command(&mut self, tick: u64) -> Option<Command> {
+    fn command(&mut self, tick: u64) -> Option<RobotReply> {
         let world = self.app.world();
         let figures = world.resource::<UdpCarrier>().figures;
         let robot = world.entity(self.entity);
         let activity = robot.get::<Activity>()?;
         let model = robot.get::<WorldModel>()?;
-        Some(Command {
-            session: self.introduction.as_ref()?.session,
+        let wants = RobotWants {
             tick,
             steering: *robot.get::<SteeringIntent>()?,
             kick: *robot.get::<KickIntent>()?,
@@ -284,9 +288,10 @@ impl RobotProcess {
             state: activity.state as u16,
             pose: model.pose,
             ball: model.ball.map(|ball| ball.position),
-            datagrams: (figures.sent, figures.received),
-            said: world.resource::<MessageBudgets>().spent(self.id.team).counted,
-        })
+        };
+        let session = self.introduction.as_ref()?.session;
+        let said = world.resource::<MessageBudgets>().spent(self.id.team).counted;
+        Some(RobotReply { session, wants, datagrams: (figures.sent, figures.received), said })
     }
 }
 
@@ -294,7 +299,7 @@ impl RobotProcess {
 fn mind(plan: &MatchPlan, id: RobotId, carrier: UdpCarrier) -> (App, Entity) {
     let mut app = App::new();
     // Its mind, without a world around it.
-    app.add_plugins((schedule::plugin, comms::modules, super::plugin, mind::plugin));
+    app.add_plugins((schedule::plugin, comms::modules, super::robot_plugin, mind::plugin));
     app.finish();
     app.cleanup();
     let entity = start_mind(app.world_mut(), plan, id);

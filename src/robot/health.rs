@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A robot's condition; all is well by default.
+/// A robot's health: what works of it; all is well by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Condition {
+pub struct Health {
     /// Its computer is off: it stands still, hears nothing, says nothing and decides nothing.
     pub crashed: bool,
     /// Its wheels are off, while its computer and its radio go on.
@@ -15,7 +15,7 @@ pub struct Condition {
     pub mute: bool,
 }
 
-impl Condition {
+impl Health {
     /// Whether it receives messages.
     pub fn hears(&self) -> bool {
         !self.crashed && !self.deaf
@@ -28,16 +28,16 @@ impl Condition {
 
     /// Whether nothing is wrong with it.
     pub fn is_well(&self) -> bool {
-        *self == Condition::default()
+        *self == Health::default()
     }
 
-    /// This condition with one more ailment.
-    pub fn with(mut self, ailment: Ailment) -> Condition {
-        match ailment {
-            Ailment::Crashed => self.crashed = true,
-            Ailment::Frozen => self.frozen = true,
-            Ailment::Deaf => self.deaf = true,
-            Ailment::Mute => self.mute = true,
+    /// This health with one more failure.
+    pub fn with(mut self, failure: RobotFailure) -> Health {
+        match failure {
+            RobotFailure::Crashed => self.crashed = true,
+            RobotFailure::Frozen => self.frozen = true,
+            RobotFailure::Deaf => self.deaf = true,
+            RobotFailure::Mute => self.mute = true,
         }
         self
     }
@@ -45,7 +45,7 @@ impl Condition {
 
 /// How a robot can fail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Ailment {
+pub enum RobotFailure {
     /// It neither moves nor thinks nor talks.
     Crashed,
     /// Its wheels or legs stand still.
@@ -58,7 +58,7 @@ pub enum Ailment {
 
 /// What a robot still knows when it is switched on again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Recall {
+pub enum Restart {
     /// Its role and its counters; what it was in the middle of is gone.
     Kept,
     /// Nothing: it is as new.
@@ -71,11 +71,11 @@ mod tests {
 
     #[test]
     fn a_crashed_robot_neither_hears_nor_drives_and_a_frozen_one_hears() {
-        let crashed = Condition::default().with(Ailment::Crashed);
+        let crashed = Health::default().with(RobotFailure::Crashed);
         assert!(!crashed.hears() && !crashed.drives() && !crashed.is_well());
-        let frozen = Condition::default().with(Ailment::Frozen);
+        let frozen = Health::default().with(RobotFailure::Frozen);
         assert!(frozen.hears() && !frozen.drives());
-        assert!(!Condition::default().with(Ailment::Deaf).hears());
-        assert!(Condition::default().with(Ailment::Mute).hears());
+        assert!(!Health::default().with(RobotFailure::Deaf).hears());
+        assert!(Health::default().with(RobotFailure::Mute).hears());
     }
 }

@@ -10,27 +10,24 @@ use bevy::log::{info, warn};
 use bevy::prelude::*;
 use serde::Serialize;
 
-use super::WireError;
-use super::commands::{entity_of, obey, stand};
+use super::error::NetworkError;
 use super::introduction::Introduction;
-use super::protocol::{Command, Sensors, datagrams, unused_number};
+use super::remote_messages::{RobotReply, Sensors, datagrams};
+use super::timing::DATAGRAMS_A_TICK;
 use crate::clock::Clock;
 use crate::comms::tcm::fragments::{Assembly, Limits};
 use crate::comms::tcm::udp::UdpConn;
-use crate::comms::tcm::{Data, Directory, ExternalMessage, HOST, MessageBudgets, Peer, Tcm};
+use crate::comms::tcm::{Data, Directory, ExternalMessage, HOST, Peer};
 use crate::game::MatchPlan;
-use crate::game::requests::{Request, Requests, Treatment};
+use crate::game::requests::{RemoteNews, Request, Requests};
 use crate::ids::RobotId;
 use crate::robot::handling::Handling;
-use crate::robot::{Head, Odometry, Orders, Percepts, Recall, Robot, RobotState};
+use crate::robot::{Head, Odometry, Orders, Percepts, RobotState};
 
 /// How long a tick waits for answers, unless it was [granted](super::grant) less.
 const PATIENCE: Duration = Duration::from_millis(200);
 /// A robot that has not answered for this many ticks stands still, and no tick waits for it until it answers again.
 const SILENCE: u64 = 10;
-/// The most datagrams that are taken at a time when there is no robot to wait for, so that a flood does not stop a match.
-pub(super) const DATAGRAMS_A_TICK: usize = 128;
-
 /// Counts of the packets to and from one remote robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct RemoteFigures {
@@ -55,15 +52,17 @@ pub(super) struct RemoteRobots {
     session: u32,
     /// How long ticks may still wait in all, if that was said.
     pub(super) granted: Option<Duration>,
-    pub(super) robots: BTreeMap<RobotId, Remote>,
+    pub(super) robots: BTreeMap<RobotId, RemoteRobot>,
 }
 
-pub(super) struct Remote {
+pub(super) struct RemoteRobot {
     pub address: SocketAddr,
     pub introduction: Introduction,
     figures: RemoteFigures,
     /// Whether it takes part: it has introduced itself, and it is not silent.
     pub is_in: bool,
+    /// Whether the match knows that it stands still.
+    stands: bool,
     /// Whether ticks wait for its answer. Who came back must have answered once.
     waits: bool,
     /// The tick of the last answer, or of the introduction.
@@ -77,37 +76,11 @@ pub(super) struct Remote {
 }
 
 /// What came from the address of a robot.
-pub(super) enum Word {
+pub(super) enum RobotWord {
     Introduction(Introduction),
-    Command(Command),
+    Command(RobotReply),
     /// What no robot of this version says.
     Other,
-}
-
-/// The robots' own decisions are not made here any more.
-pub(super) fn hand_over(world: &mut World, remote: &[RobotId]) {
-    let mut robots = world.query::<(&RobotId, &mut Robot)>();
-    for (id, mut robot) in robots.iter_mut(world) {
-        robot.remote = remote.contains(id);
-    }
-}
-
-/// Switches on the mind of a robot in this process, in the midst of a match: it knows nothing of what was.
-pub(super) fn wake(world: &mut World, robot: RobotId) {
-    if world.resource::<Clock>().tick == 0 {
-        return;
-    }
-    let Some(entity) = entity_of(world, robot) else { return };
-    let mut entity = world.entity_mut(entity);
-    if let Some(mut tcm) = entity.get_mut::<Tcm>() {
-        tcm.count_from(unused_number());
-    }
-    let Some(mut body) = entity.get_mut::<Robot>() else { return };
-    if body.condition.crashed {
-        return;
-    }
-    body.condition.crashed = true;
-    world.resource_mut::<Requests>().ask(Request::Robot(robot, Treatment::Revive(Recall::Lost)));
 }
 
 impl RemoteRobots {
@@ -116,19 +89,20 @@ impl RemoteRobots {
         directory: &Directory,
         robots: &[RobotId],
         plan: &MatchPlan,
-    ) -> Result<RemoteRobots, WireError> {
-        let host = directory.address_of(HOST).ok_or(WireError::NoAddress(HOST))?;
-        let session = unused_number();
+        session: u32,
+    ) -> Result<RemoteRobots, NetworkError> {
+        let host = directory.address_of(HOST).ok_or(NetworkError::NoAddress(HOST))?;
         let remote = |robot: RobotId| {
             let peer = Peer::from(robot);
-            let address = directory.address_of(peer).ok_or(WireError::NoAddress(peer))?;
+            let address = directory.address_of(peer).ok_or(NetworkError::NoAddress(peer))?;
             let figures = RemoteFigures { robot, told: 0, answered: 0, missed: 0, sent: 0, received: 0 };
             let introduction = Introduction::new(plan, robot, session);
-            let remote = Remote {
+            let remote = RemoteRobot {
                 address,
                 introduction,
                 figures,
                 is_in: false,
+                stands: false,
                 waits: false,
                 last: 0,
                 spoken: None,
@@ -144,7 +118,7 @@ impl RemoteRobots {
             counter: session,
             session,
             granted: None,
-            robots: robots.iter().copied().map(remote).collect::<Result<_, WireError>>()?,
+            robots: robots.iter().copied().map(remote).collect::<Result<_, NetworkError>>()?,
         })
     }
 
@@ -188,6 +162,7 @@ impl RemoteRobots {
     /// Tells those who take part.
     fn tell(&mut self, world: &mut World, tick: u64, is_over: bool) {
         let mut senses = world.query::<(&RobotId, &Percepts, &Odometry, &Head, &Handling, &Orders)>();
+        let requests = world.resource::<Requests>();
         for (id, percepts, odometry, head, handling, orders) in senses.iter(world) {
             let Some(remote) = self.robots.get_mut(id).filter(|remote| remote.is_in) else { continue };
             let sensors = Sensors {
@@ -201,6 +176,7 @@ impl RemoteRobots {
                 pan: head.pan,
                 holds_ball: handling.holds(),
                 orders: if is_over { Orders { state: RobotState::Finished, ..*orders } } else { *orders },
+                asked: requests.iter().filter(|request| request.concerns_mind(*id)).cloned().collect(),
             };
             remote.figures.told += 1;
             remote.spoken = Some(Instant::now());
@@ -223,29 +199,29 @@ impl RemoteRobots {
     }
 
     /// What comes next, if anything comes in time; `Some(None)` is something that is not for us.
-    pub(super) fn hear(&mut self, patience: Duration) -> Option<Option<(RobotId, Word)>> {
+    pub(super) fn hear(&mut self, patience: Duration) -> Option<Option<(RobotId, RobotWord)>> {
         let (from, datagram) = self.conn.wait(patience).ok()??;
         let known = self.robots.iter().find(|(_, remote)| remote.address == from);
         let Some((&robot, _)) = known else { return Some(None) };
         let word = match self.assembly.accept(0, datagram) {
             Ok(None) => return Some(None),
-            Err(_) => Word::Other,
-            Ok(Some(message)) if message.source.peer != Peer::from(robot) => Word::Other,
+            Err(_) => RobotWord::Other,
+            Ok(Some(message)) if message.source.peer != Peer::from(robot) => RobotWord::Other,
             Ok(Some(ExternalMessage { data_type, data, .. })) => {
-                let introduction = Introduction::unserialise(data_type, &data).map(Word::Introduction);
-                let command = || Command::unserialise(data_type, &data).map(Word::Command);
-                introduction.or_else(command).unwrap_or(Word::Other)
+                let introduction = Introduction::unserialise(data_type, &data).map(RobotWord::Introduction);
+                let command = || RobotReply::unserialise(data_type, &data).map(RobotWord::Command);
+                introduction.or_else(command).unwrap_or(RobotWord::Other)
             }
         };
         Some(Some((robot, word)))
     }
 
     /// Makes of a robot's word what is to be made of it; returns the tick that it answers.
-    pub(super) fn meet(&mut self, world: &mut World, robot: RobotId, word: Word) -> Option<u64> {
+    pub(super) fn meet(&mut self, world: &mut World, robot: RobotId, word: RobotWord) -> Option<u64> {
         let session = self.session;
         let remote = self.robots.get_mut(&robot)?;
         match word {
-            Word::Introduction(there) => {
+            RobotWord::Introduction(there) => {
                 let difference = remote.introduction.difference(&there);
                 match difference {
                     Some(difference) => remote.refuse(robot, format!("plays another match: {difference}")),
@@ -255,23 +231,22 @@ impl RemoteRobots {
                 }
                 None
             }
-            Word::Command(command) if command.session == session => {
+            RobotWord::Command(command) if command.session == session => {
                 // Who took part and fell silent introduces itself first.
-                if !remote.is_in || command.tick < remote.last {
+                let answered = command.wants.tick;
+                if !remote.is_in || answered < remote.last {
                     return None;
                 }
-                (remote.waits, remote.last) = (true, command.tick);
+                (remote.waits, remote.last) = (true, answered);
                 (remote.figures.sent, remote.figures.received) = command.datagrams;
                 let said = command.said.saturating_sub(std::mem::replace(&mut remote.said, command.said));
-                if let Some(mut budgets) = world.get_resource_mut::<MessageBudgets>() {
-                    budgets.count(robot.team, said);
-                }
-                obey(world, robot, &command);
-                Some(command.tick)
+                let news = RemoteNews::Wants { wants: command.wants, said };
+                world.resource_mut::<Requests>().ask(Request::Remote(robot, news));
+                Some(answered)
             }
             // The end of the match before.
-            Word::Command(_) => None,
-            Word::Other => {
+            RobotWord::Command(_) => None,
+            RobotWord::Other => {
                 if !remote.is_in {
                     remote.refuse(robot, "says what no robot of this version says".into());
                 }
@@ -287,25 +262,18 @@ impl RemoteRobots {
             warn!("{robot} at {} has fallen silent and stands still", remote.address);
             (remote.is_in, remote.waits) = (false, false);
         }
-        if !remote.is_in {
-            stand(world, robot);
+        if !remote.is_in && !std::mem::replace(&mut remote.stands, true) {
+            world.resource_mut::<Requests>().ask(Request::Remote(robot, RemoteNews::Silent));
         }
     }
 
-    /// Lets a robot go, which is played by this process from now on.
-    pub fn give_up(&mut self, world: &mut World, robot: RobotId) -> bool {
-        let was_remote = self.robots.remove(&robot).is_some();
-        if was_remote
-            && let Some(entity) = entity_of(world, robot)
-            && let Some(mut robot) = world.get_mut::<Robot>(entity)
-        {
-            robot.remote = false;
-        }
-        was_remote
+    /// Lets a robot go, which is played by this process from now on; tells whether it was one of these.
+    pub fn give_up(&mut self, robot: RobotId) -> bool {
+        self.robots.remove(&robot).is_some()
     }
 }
 
-impl Remote {
+impl RemoteRobot {
     fn let_in(&mut self, robot: RobotId, tick: u64) {
         if self.is_in {
             return;
@@ -313,7 +281,8 @@ impl Remote {
         if tick > 0 {
             info!("{robot} at {} takes part from now on", self.address);
         }
-        (self.is_in, self.waits, self.last, self.refusal) = (true, tick == 0, tick, None);
+        (self.is_in, self.stands, self.waits) = (true, false, tick == 0);
+        (self.last, self.refusal) = (tick, None);
     }
 
     fn refuse(&mut self, robot: RobotId, why: String) {
@@ -345,7 +314,7 @@ mod tests {
         let silent = UdpSocket::bind(somewhere).unwrap();
         let directory =
             [(HOST, somewhere), (ROBOT.into(), silent.local_addr().unwrap())].into_iter().collect();
-        let mut remote = RemoteRobots::open(&directory, &[ROBOT], &plan).unwrap();
+        let mut remote = RemoteRobots::open(&directory, &[ROBOT], &plan, 1).unwrap();
         let mut game = Match::new(&plan);
         remote.robots.values_mut().for_each(|robot| robot.let_in(ROBOT, 0));
         remote.granted = Some(Duration::from_millis(5));

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::game::Match;
 use crate::world::gamecontroller::BoxNews;
 use crate::world::gamecontroller::control::Penalty;
-use crate::world::gamecontroller::referee_box::Heard;
+use crate::world::gamecontroller::referee_box::PacketCounts;
 
 #[derive(Debug, Serialize)]
 pub(super) struct BoxReport {
@@ -15,19 +15,19 @@ pub(super) struct BoxReport {
     team_numbers: Option<[u8; 2]>,
     /// The version of its packets.
     version: Option<u8>,
-    packets: PacketCounts,
+    packets: PacketReport,
     /// The penalties that it gave, by robot.
-    penalties: Vec<Given>,
+    penalties: Vec<GivenPenalty>,
 }
 
 #[derive(Debug, Serialize)]
-struct PacketCounts {
+struct PacketReport {
     /// Followed, or the newest one once more.
     heard: u64,
     ignored: IgnoredPackets,
 }
 
-/// Packets that were not followed, by their reason.
+/// PacketReport that were not followed, by their reason.
 #[derive(Debug, Serialize)]
 struct IgnoredPackets {
     not_control_packets: u64,
@@ -40,7 +40,7 @@ struct IgnoredPackets {
 
 /// How often a robot got a penalty.
 #[derive(Debug, Serialize)]
-struct Given {
+struct GivenPenalty {
     robot: String,
     penalty: String,
     times: u64,
@@ -49,12 +49,13 @@ struct Given {
 impl BoxReport {
     pub fn of(game: &Match) -> Option<BoxReport> {
         let news = game.world().get_resource::<BoxNews>()?;
-        let penalties = news.penalties.iter().map(|((robot, penalty), times)| Given {
+        let penalties = news.penalties.iter().map(|((robot, penalty), times)| GivenPenalty {
             robot: format!("{}:{}", robot.team, robot.number),
             penalty: Penalty::to_string(penalty),
             times: *times,
         });
-        let Heard { news: followed, repeated, not_ours, version, length, teams, sender, stale } = news.heard;
+        let PacketCounts { news: followed, repeated, not_ours, version, length, teams, sender, stale } =
+            news.heard();
         let ignored = IgnoredPackets {
             not_control_packets: not_ours,
             other_version: version,
@@ -64,9 +65,9 @@ impl BoxReport {
             overtaken: stale,
         };
         Some(BoxReport {
-            team_numbers: news.team_numbers,
-            version: news.sender.map(|(_, version)| version as u8),
-            packets: PacketCounts { heard: followed + repeated, ignored },
+            team_numbers: news.team_numbers(),
+            version: news.sender().map(|(_, version)| version as u8),
+            packets: PacketReport { heard: followed + repeated, ignored },
             penalties: penalties.collect(),
         })
     }
