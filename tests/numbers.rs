@@ -54,13 +54,13 @@ fn written(text: &str) -> (tempfile::TempDir, PathBuf) {
 fn refusal(from: &str, to: &str) -> String {
     assert!(SCENARIO.contains(from), "{from}");
     let (_folder, path) = written(&SCENARIO.replacen(from, to, 1));
-    ScenarioPlan::read(&assets(), &path).expect_err("the scenario is refused").to_string()
+    ScenarioPlan::read(&assets(), &path.into()).expect_err("the scenario is refused").to_string()
 }
 
 #[test]
 fn absurd_numbers_of_a_scenario_are_errors_with_line_and_field() {
     let (_folder, path) = written(SCENARIO);
-    assert!(ScenarioPlan::read(&assets(), &path).is_ok());
+    assert!(ScenarioPlan::read(&assets(), &path.into()).is_ok());
     for (from, to, expected) in [
         ("seconds: 5", "seconds: 1e30", ":4:14: seconds: must be at most 86400 s, not 1e30"),
         (
@@ -153,7 +153,7 @@ fn playing(script: &str) -> Match {
     let (start, rest) = SCENARIO.split_once("script: [").expect("it has a script");
     let (_, end) = rest.split_once("    ],\n").expect("the script ends");
     let (_folder, path) = written(&format!("{start}script: [{script}],\n{end}"));
-    let plan = ScenarioPlan::read(&assets(), &path).unwrap_or_else(|error| panic!("{error}"));
+    let plan = ScenarioPlan::read(&assets(), &path.into()).unwrap_or_else(|error| panic!("{error}"));
     Match::new(&plan.with_seed(1))
 }
 

@@ -75,7 +75,7 @@ fn every_policy_swaps_roles_in_a_match_and_leaves_each_to_one_robot() {
 #[test]
 fn the_case_based_rules_decide_in_the_situation_of_figure_8() {
     let path = assets().file(AssetKind::Scenario, "swap_figure_8");
-    let scenario = ScenarioPlan::read(&assets(), &path).expect("the shipped scenario is sound");
+    let scenario = ScenarioPlan::read(&assets(), &path.into()).expect("the shipped scenario is sound");
     let wanted = [
         ("CaseBased()", ["goalie", "forward", "halfback", "floater"]),
         ("ClosestBecomesForward()", ["goalie", "floater", "halfback", "forward"]),

@@ -4,17 +4,17 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use touchline::data::AssetKind;
-use touchline::lab::scenario::{Report, ScenarioPlan};
+use touchline::lab::scenario::{Report, ScenarioPlan, ScenarioRef};
 
 use crate::support::assets;
 
 fn plans() -> Vec<ScenarioPlan> {
     let assets = assets();
     let read = |name: &String| {
-        ScenarioPlan::read(&assets, &assets.file(AssetKind::Scenario, name))
+        ScenarioPlan::read_all(&assets, &ScenarioRef::named(&assets, name))
             .unwrap_or_else(|error| panic!("{error}"))
     };
-    assets.names(AssetKind::Scenario).iter().map(read).collect()
+    assets.names(AssetKind::Scenario).iter().flat_map(read).collect()
 }
 
 /// Plays all scenarios on two threads; the reports are in the scenarios' order.

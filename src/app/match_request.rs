@@ -1,10 +1,8 @@
 //! What a person wants to see in the window, and the plans that this comes to.
 
-use std::path::PathBuf;
-
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
-use crate::lab::scenario::ScenarioPlan;
+use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
 use crate::rng::DEFAULT_SEED;
 
 /// What a person wants to see.
@@ -15,7 +13,7 @@ pub enum MatchRequest {
     Match(Choice),
     /// A scenario with one of its seeds or with any other.
     Scenario {
-        path: PathBuf,
+        scenario: ScenarioRef,
         /// Its first one, if not given.
         seed: Option<u64>,
     },
@@ -38,8 +36,8 @@ impl MatchRequest {
     pub fn plans(&self, assets: &AssetFolder) -> Result<Plans, DataError> {
         match self {
             MatchRequest::Match(choice) => MatchPlan::read(assets, choice).map(|plan| (plan, None)),
-            MatchRequest::Scenario { path, seed } => {
-                let scenario = ScenarioPlan::read(assets, path)?;
+            MatchRequest::Scenario { scenario, seed } => {
+                let scenario = ScenarioPlan::read(assets, scenario)?;
                 let seed = seed.or_else(|| scenario.scenario.seeds.first().copied()).unwrap_or(DEFAULT_SEED);
                 Ok((scenario.with_seed(seed), Some(scenario)))
             }
@@ -50,15 +48,14 @@ impl MatchRequest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::AssetKind;
 
     #[test]
     fn a_scenario_is_played_with_its_first_seed_or_with_the_one_asked_for() {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
-        let path = assets.file(AssetKind::Scenario, "swap_figure_8");
+        let scenario = ScenarioRef::named(&assets, "swap_figure_8");
         let seed_of = |seed| {
-            let (plan, scenario) =
-                MatchRequest::Scenario { path: path.clone(), seed }.plans(&assets).unwrap();
+            let scenario = scenario.clone();
+            let (plan, scenario) = MatchRequest::Scenario { scenario, seed }.plans(&assets).unwrap();
             assert!(scenario.is_some() && plan.situation.is_some());
             plan.seed
         };

@@ -56,11 +56,14 @@ impl Field {
         &self.segments
     }
 
+    /// The value that these steps lead to from here.
+    #[must_use]
+    pub(super) fn inside(&self, steps: &[Segment]) -> Field {
+        Field { segments: [&self.segments, steps].concat() }
+    }
+
     fn with(&self, segment: Segment) -> Field {
-        let mut segments = Vec::with_capacity(self.segments.len() + 1);
-        segments.extend_from_slice(&self.segments);
-        segments.push(segment);
-        Field { segments }
+        self.inside(&[segment])
     }
 
     /// This path without its last step if that is the key `key`; ron counts a bad variant name as a step.

@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 
 use super::bounds::Bound;
 use super::error::DataError;
-use super::field::Field;
+use super::field::{Field, Segment};
 use super::folder::names_in;
 use super::locate::{find, line_and_column, locate, outermost};
 use super::twice::{given_twice, name};
@@ -47,12 +47,29 @@ pub struct Source {
     pub path: PathBuf,
     /// What is in it.
     pub text: String,
+    overlay: Option<Overlay>,
+}
+
+/// A part of a text that is laid over the rest.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Overlay {
+    at: Field,
+    /// Lists of the whole that go on in the part, and how many entries the whole has of each.
+    continued: Vec<(&'static str, usize)>,
 }
 
 impl Source {
     /// A text that is already at hand; `path` only names it.
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Source {
-        Source { path: path.into(), text: text.into() }
+        Source { path: path.into(), text: text.into(), overlay: None }
+    }
+
+    /// The same text with the part of it that stands at `at` laid over the rest: later errors about a field point into the
+    /// part if the field is given there. Of the lists `continued` the whole has so many entries, and the part has the
+    /// others.
+    #[must_use]
+    pub fn overlaid(&self, at: Field, continued: Vec<(&'static str, usize)>) -> Source {
+        Source { overlay: Some(Overlay { at, continued }), ..self.clone() }
     }
 
     /// Reads a file, without the byte order mark that some editors write.
@@ -132,11 +149,36 @@ impl Source {
 
     /// An error about a field of the parsed value, at the place of its value or of the deepest value around it.
     pub fn error_at(&self, field: &Field, message: impl Into<String>) -> DataError {
+        let field = &self.written(field);
         let error = DataError::new(&self.path, message).about(field.clone());
         match locate(&self.text, field.segments()) {
             Some(place) => error.at(place),
             None => error,
         }
+    }
+
+    /// Where a field is written: in the part that is laid over the rest if it is given there.
+    fn written(&self, field: &Field) -> Field {
+        let Some(Overlay { at, continued }) = &self.overlay else { return field.clone() };
+        if let [Segment::Key(list), Segment::Index(place), inside @ ..] = field.segments()
+            && let Some((_, count)) = continued.iter().find(|(name, _)| name == list)
+        {
+            let Some(place) = place.checked_sub(*count) else { return field.clone() };
+            return at.key(list).index(place).inside(inside);
+        }
+        let written = at.inside(field.segments());
+        let is_given = find(&self.text, written.segments()).is_some_and(|found| found.exact);
+        if is_given { written } else { field.clone() }
+    }
+
+    /// A value that has to be given as `field` of what stands at `at`.
+    ///
+    /// # Errors
+    ///
+    /// If it is not given.
+    pub fn required<T: Clone>(&self, value: &Option<T>, at: &Field, field: &str) -> Result<T, DataError> {
+        let missing = || self.error_at(at, format!("the field `{field}` is missing"));
+        value.clone().ok_or_else(missing)
     }
 
     /// Checks a number of the parsed value.

@@ -16,6 +16,7 @@ use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::strategy::StrategyReading;
+use crate::strategy::teamwork::TeamworkFile;
 use crate::world::referee::RuleBook;
 
 /// A match as it is written in `assets/matches/*.ron`.
@@ -117,7 +118,7 @@ impl MatchPlan {
     pub fn reread(&self, team: Team, assets: &AssetFolder) -> StrategyReading {
         let team = self.team(team);
         let at = |field: &str| Field::root().key(field);
-        read_strategy(assets, &team.names, &team.kind, &self.pitch, &self.ball)
+        read_strategy(assets, &team.names, &team.teamwork_change, &team.kind, (&self.pitch, &self.ball))
             .require(|strategy| strategy.can_follow(&team.strategy).map_err(|reason| (at("players"), reason)))
             .require(|strategy| give_roles(strategy, &team.roles).map_err(|reason| (at("roles"), reason)))
     }
@@ -162,11 +163,15 @@ impl MatchPlan {
         file.away.check(assets, &source, "away", choice.away.is_none())?;
         let radio = choice.radio.as_ref().unwrap_or(&file.radio);
         let radio = checked(&assets.file(AssetKind::Radio, radio), Radio::fault)?;
-        file.home.strategy = choice.home.clone().unwrap_or(file.home.strategy);
-        file.away.strategy = choice.away.clone().unwrap_or(file.away.strategy);
+        for (team, chosen) in [(&mut file.home, &choice.home), (&mut file.away, &choice.away)] {
+            if let Some(strategy) = chosen {
+                // What a match changes of its own strategy's teamwork means nothing for another.
+                (team.strategy, team.teamwork) = (strategy.clone(), TeamworkFile::default());
+            }
+        }
         let teams = [
-            TeamPlan::read(assets, &file.home, &pitch, &file.ball)?,
-            TeamPlan::read(assets, &file.away, &pitch, &file.ball)?,
+            TeamPlan::read(assets, &file.home, (&source, "home"), (&pitch, &file.ball))?,
+            TeamPlan::read(assets, &file.away, (&source, "away"), (&pitch, &file.ball))?,
         ];
         let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
         let mut network = NetworkPlan::clone(&choice.network);

@@ -11,7 +11,8 @@ use super::line_up::LineUp;
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source};
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
-use crate::strategy::{Strategy, StrategyReading};
+use crate::strategy::teamwork::TeamworkFile;
+use crate::strategy::{Strategy, StrategyReading, TeamworkChange};
 
 /// One side of a match: names of files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +24,9 @@ pub struct TeamFile {
     pub robot: String,
     /// The file of the robots' senses.
     pub sensing: String,
+    /// What differs from the strategy's own `teamwork`, field by field.
+    #[serde(default)]
+    pub teamwork: TeamworkFile,
     /// The league's number of the team, 0 to 254. Without numbers the first referee box that is heard decides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub team_number: Option<u8>,
@@ -56,6 +60,8 @@ pub struct TeamPlan {
     pub strategy: Arc<Strategy>,
     /// The files that the strategy rests on, its own first.
     pub strategy_files: Vec<PathBuf>,
+    /// What of the strategy's teamwork the match or the scenario replaces.
+    pub teamwork_change: TeamworkChange,
     /// The roles by number that a scenario gives to players at kick-off in place of the strategy's.
     pub roles: Vec<(u8, String)>,
     /// What its robots are built as.
@@ -65,17 +71,21 @@ pub struct TeamPlan {
 }
 
 impl TeamPlan {
+    /// Reads what a file names for a side.
     pub(crate) fn read(
         assets: &AssetFolder,
         names: &TeamFile,
-        pitch: &Pitch,
-        ball: &BallKind,
+        (source, side): (&Source, &str),
+        (pitch, ball): (&Pitch, &BallKind),
     ) -> Result<TeamPlan, DataError> {
         let kind: RobotKind = checked(&assets.file(AssetKind::Robot, &names.robot), RobotKind::fault)?;
-        let StrategyReading { strategy, files } = read_strategy(assets, names, &kind, pitch, ball);
+        let at = Field::root().key(side).key("teamwork");
+        let change = TeamworkChange { teamwork: names.teamwork.clone(), source: source.clone(), at };
+        let reading = read_strategy(assets, names, &change, &kind, (pitch, ball));
         Ok(TeamPlan {
-            strategy: Arc::new(strategy?),
-            strategy_files: files,
+            strategy: Arc::new(reading.strategy?),
+            strategy_files: reading.files,
+            teamwork_change: change,
             kind: Arc::new(kind),
             sensing: Arc::new(checked(&assets.file(AssetKind::Sensing, &names.sensing), Sensing::fault)?),
             names: names.clone(),
@@ -98,12 +108,13 @@ impl TeamPlan {
 pub(super) fn read_strategy(
     assets: &AssetFolder,
     names: &TeamFile,
+    change: &TeamworkChange,
     kind: &RobotKind,
-    pitch: &Pitch,
-    ball: &BallKind,
+    (pitch, ball): (&Pitch, &BallKind),
 ) -> StrategyReading {
     let path = assets.file(AssetKind::Strategy, &names.strategy);
     Strategy::read(assets, &path, Some(pitch))
+        .with_teamwork(change)
         .require(|strategy| {
             if strategy.robot_kinds.contains(&names.robot) {
                 return Ok(());

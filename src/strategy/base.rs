@@ -88,6 +88,7 @@ impl StrategyFile {
             robot_kinds: given(self.robot_kinds, base.robot_kinds),
             players: given(self.players, base.players),
             kick_off: if kick_off_is_given { self.kick_off } else { base.kick_off },
+            line_ups: merged(self.line_ups, base.line_ups),
             zones: merged(self.zones, base.zones),
             percepts: merged(self.percepts, base.percepts),
             point_sets: merged(self.point_sets, base.point_sets),
@@ -96,7 +97,7 @@ impl StrategyFile {
             assemblages: merged(self.assemblages, base.assemblages),
             machines: merged(self.machines, base.machines),
             roles: merged(self.roles, base.roles),
-            teamwork: self.teamwork.or(base.teamwork),
+            teamwork: self.teamwork.over(base.teamwork),
         }
     }
 }

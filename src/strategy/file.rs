@@ -18,8 +18,8 @@ pub struct StrategyFile {
     #[serde(default)]
     pub description: String,
     /// The strategy that fills whatever this file leaves out: the name of a file in the same folder or else of one among the
-    /// assets, or a path from this file's folder. Of pieces with the same name, this file's own count. The base may have a
-    /// base in turn.
+    /// assets, or a path from this file's folder. Of pieces with the same name, this file's own count, and `teamwork` is
+    /// filled field by field. The base may have a base in turn.
     #[serde(default)]
     pub based_on: Option<String>,
     /// Length and width in metres of the pitch that its positions are meant for. On another pitch they are stretched.
@@ -33,6 +33,9 @@ pub struct StrategyFile {
     pub players: Vec<String>,
     #[serde(default)]
     pub kick_off: KickOff,
+    /// Places of all players, by number, at which scenarios begin.
+    #[serde(default)]
+    pub line_ups: BTreeMap<String, Vec<Vec2>>,
     #[serde(default)]
     pub zones: BTreeMap<String, Zone>,
     #[serde(default)]
@@ -50,7 +53,7 @@ pub struct StrategyFile {
     #[serde(default)]
     pub roles: BTreeMap<String, RoleFile>,
     #[serde(default)]
-    pub teamwork: Option<TeamworkFile>,
+    pub teamwork: TeamworkFile,
 }
 
 /// Where people put the robots for a kick-off, by number: x, y in the team frame, looking at the opponents' goal.
@@ -65,9 +68,12 @@ pub struct KickOff {
 
 impl KickOff {
     pub(super) fn scaled(&self, scale: Vec2) -> KickOff {
-        let scaled = |places: &[Vec2]| places.iter().map(|place| *place * scale).collect();
-        KickOff { ours: scaled(&self.ours), theirs: scaled(&self.theirs) }
+        KickOff { ours: stretched(&self.ours, scale), theirs: stretched(&self.theirs, scale) }
     }
+}
+
+pub(super) fn stretched(places: &[Vec2], scale: Vec2) -> Vec<Vec2> {
+    places.iter().map(|place| *place * scale).collect()
 }
 
 /// Motor schemas by name, a weight beside each, and how they become one vector.

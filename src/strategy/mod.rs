@@ -12,6 +12,7 @@ mod resolve;
 mod role;
 pub mod teamwork;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -27,7 +28,7 @@ use base::Lineage;
 pub use file::{KickOff, StrategyFile};
 use language::{Feature, Point, Schema};
 pub use role::{Role, RoleRef};
-use teamwork::Teamwork;
+use teamwork::{Teamwork, TeamworkFile};
 
 /// A strategy that can be played: every name is an index, every number is sound.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,8 @@ pub struct Strategy {
     /// Index into `roles` for each robot at kick-off, by number.
     pub players: Vec<usize>,
     pub kick_off: KickOff,
+    /// Places of all players by number, at which scenarios begin.
+    pub line_ups: BTreeMap<String, Vec<Vec2>>,
     pub machines: Vec<Machine>,
     pub assemblages: Vec<Assemblage>,
     pub teamwork: Teamwork,
@@ -166,12 +169,34 @@ pub struct Term {
 pub struct StrategyReading {
     /// A strategy is loaded whole or not at all: then the error says what is wrong, with file, line, column and field.
     pub strategy: Result<Strategy, DataError>,
+    /// What the files say of teamwork.
+    teamwork: TeamworkFile,
     /// Its own file first, then where those that it is based on are or were looked for: if one of these changes, comes or
     /// goes, so may the strategy.
     pub files: Vec<PathBuf>,
 }
 
+/// What a match or a scenario says of a strategy's teamwork in place of the strategy, and where it says so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TeamworkChange {
+    pub teamwork: TeamworkFile,
+    pub source: Source,
+    pub at: Field,
+}
+
 impl StrategyReading {
+    /// The same with a change of its teamwork, field by field; an error where the change does not fit the strategy.
+    pub(crate) fn with_teamwork(mut self, change: &TeamworkChange) -> StrategyReading {
+        self.strategy = self.strategy.and_then(|mut strategy| {
+            let names = strategy.roles.iter().map(|role| role.name.as_str()).collect();
+            let roles = resolve::Roles { names, source: &change.source };
+            self.teamwork = change.teamwork.clone().over(self.teamwork.clone());
+            strategy.teamwork = roles.teamwork(&self.teamwork, &change.at)?;
+            Ok(strategy)
+        });
+        self
+    }
+
     /// The same, unless a sound strategy does not do for its use: then an error at the field that says why.
     pub(crate) fn require(
         mut self,
@@ -190,8 +215,12 @@ impl Strategy {
     /// they are written without one.
     pub fn read(assets: &AssetFolder, path: &Path, pitch: Option<&Pitch>) -> StrategyReading {
         let mut lineage = Lineage::of(path, assets);
-        let strategy = Source::read(path).and_then(|source| Strategy::resolved(&source, &mut lineage, pitch));
-        StrategyReading { strategy, files: lineage.files }
+        let read = Source::read(path).and_then(|source| Strategy::resolved(&source, &mut lineage, pitch));
+        let (strategy, teamwork) = match read {
+            Ok((strategy, file)) => (Ok(strategy), file.teamwork),
+            Err(error) => (Err(error), TeamworkFile::default()),
+        };
+        StrategyReading { strategy, teamwork, files: lineage.files }
     }
 
     /// Checks the text of a strategy file that is already at hand, as [`Strategy::read`] does.
@@ -203,16 +232,18 @@ impl Strategy {
         source: &Source,
         pitch: Option<&Pitch>,
     ) -> Result<Strategy, DataError> {
-        Strategy::resolved(source, &mut Lineage::of(&source.path, assets), pitch)
+        let read = Strategy::resolved(source, &mut Lineage::of(&source.path, assets), pitch);
+        read.map(|(strategy, _)| strategy)
     }
 
     fn resolved(
         source: &Source,
         lineage: &mut Lineage,
         pitch: Option<&Pitch>,
-    ) -> Result<Strategy, DataError> {
+    ) -> Result<(Strategy, StrategyFile), DataError> {
         let file = lineage.complete(source.parse()?, source)?;
-        resolve::resolve(&file, source, pitch.map(|pitch| 2.0 * pitch.half_size()))
+        let strategy = resolve::resolve(&file, source, pitch.map(|pitch| 2.0 * pitch.half_size()))?;
+        Ok((strategy, file))
     }
 
     /// Whether robots that play `before` can play on with this strategy.

@@ -2,6 +2,7 @@
 //! roles are swapped.
 
 use serde::{Deserialize, Serialize};
+use struct_patch::{Merge, Patch};
 
 use crate::protocol::b3p;
 use crate::protocol::policy::{Policy, SwapRoles};
@@ -96,29 +97,47 @@ pub enum TeammatesBy {
     MessagesAndSight,
 }
 
-/// The section as it is written; left out, robots neither talk nor arrange anything.
+/// The section as it is written. What is left out is as in the strategy that a file is based on, or that a match or scenario
+/// names; where there is none, robots neither talk nor arrange anything.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct TeamworkFile {
     /// Those that are on; the [default](Mechanisms::default), if left out.
     pub mechanisms: Option<Vec<Mechanism>>,
-    /// How a robot knows its team mates.
-    pub teammates_by: TeammatesBy,
+    pub teammates_by: Option<TeammatesBy>,
     /// Roles by rank, the highest first; those that are missing rank lowest, all alike.
-    pub hierarchy: Vec<String>,
+    pub hierarchy: Option<Vec<String>>,
     /// The role that sends goalie messages.
     pub goalie: Option<String>,
-    /// When robots talk.
-    pub talk: MessageTiming,
-    /// How roles are swapped.
+    pub talk: MessageTimingFile,
     pub role_swap: Option<RoleSwapFile>,
-    /// How the ball is booked.
-    pub ball_booking: Option<BallBooking>,
+    pub ball_booking: Option<BallBookingFile>,
+}
+
+impl TeamworkFile {
+    /// What it says and, where it says nothing, what `base` says.
+    pub(crate) fn over(self, base: TeamworkFile) -> TeamworkFile {
+        let swap = |base: RoleSwapFile| self.role_swap.clone().map_or(base.clone(), |own| own.over(base));
+        let booking = |base: BallBookingFile| self.ball_booking.map_or(base, |own| base.merge(own));
+        TeamworkFile {
+            mechanisms: self.mechanisms.or(base.mechanisms),
+            teammates_by: self.teammates_by.or(base.teammates_by),
+            hierarchy: self.hierarchy.or(base.hierarchy),
+            goalie: self.goalie.or(base.goalie),
+            talk: base.talk.merge(self.talk),
+            role_swap: base.role_swap.map(swap).or(self.role_swap),
+            ball_booking: base.ball_booking.map(booking).or(self.ball_booking),
+        }
+    }
 }
 
 /// When robots talk and how long they believe what they heard, all in seconds, and how near to the ball it can be claimed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq, Patch)]
+#[patch(
+    name = "MessageTimingFile",
+    attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
+)]
+#[patch(attribute(serde(deny_unknown_fields, default)))]
 pub struct MessageTiming {
     /// Between two position messages.
     pub position_every: f32,
@@ -150,24 +169,34 @@ impl Default for MessageTiming {
     }
 }
 
-/// How roles are swapped.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// How roles are swapped. A team that swaps needs protocol, policy and cast, here or in the strategy that this is based on.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct RoleSwapFile {
-    /// By which protocol.
-    pub protocol: Protocol,
-    /// When.
-    pub policy: Policy,
-    /// Which roles.
-    pub cast: SwapRolesFile,
-    /// How long robots wait.
-    #[serde(default)]
-    pub timers: Timers,
+    pub protocol: Option<Protocol>,
+    pub policy: Option<Policy>,
+    pub cast: Option<SwapRolesFile>,
+    pub timers: TimersFile,
+}
+
+impl RoleSwapFile {
+    fn over(self, base: RoleSwapFile) -> RoleSwapFile {
+        RoleSwapFile {
+            protocol: self.protocol.or(base.protocol),
+            policy: self.policy.or(base.policy),
+            cast: self.cast.or(base.cast),
+            timers: base.timers.merge(self.timers),
+        }
+    }
 }
 
 /// How the ball is booked (TeamChaos, section 4). Times in seconds, lengths in metres.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq, Patch)]
+#[patch(
+    name = "BallBookingFile",
+    attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
+)]
+#[patch(attribute(serde(deny_unknown_fields, default)))]
 pub struct BallBooking {
     /// Which bookings count.
     pub rules: b3p::Rules,
@@ -214,8 +243,12 @@ pub struct SwapRolesFile {
 }
 
 /// How long a robot waits at each step of a swap, s.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, PartialEq, Patch)]
+#[patch(
+    name = "TimersFile",
+    attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
+)]
+#[patch(attribute(serde(deny_unknown_fields, default)))]
 pub struct Timers {
     /// A locked robot for the next message of its initiator. Longer than the other two and two messages' delays.
     pub lock: f32,

@@ -51,6 +51,28 @@ fn a_strategy_anywhere_is_based_on_one_beside_it_or_among_the_assets_or_at_a_pat
 }
 
 #[test]
+fn teamwork_is_filled_from_the_base_field_by_field() {
+    let own = Own::new();
+    let teamwork = "teamwork: (talk: (ball_every: 9), role_swap: (policy: Optimal(), timers: (locks: 0.7)))";
+    let path =
+        own.write("mine.ron", based_on("hammerheads_swap").replace(")\n", &format!("    {teamwork},\n)\n")));
+    let read = |path: &Path| Strategy::read(&assets(), path, None).strategy;
+    let mine = read(&path).unwrap_or_else(|error| panic!("{error}")).teamwork;
+    let mut base =
+        read(&assets().file(AssetKind::Strategy, "hammerheads_swap")).expect("it is sound").teamwork;
+    assert_ne!(mine, base);
+    base.talk.ball_every = 9.0;
+    let swap = base.role_swap.as_mut().expect("the base swaps roles");
+    swap.policy = mine.role_swap.clone().expect("mine does, too").policy;
+    swap.timers.locks = 0.7;
+    assert_eq!(mine, base);
+    let path =
+        own.write("lacking.ron", based_on("ball_chasers").replace(")\n", &format!("    {teamwork},\n)\n")));
+    let told = read(&path).expect_err("nothing says how roles are swapped").to_string();
+    assert!(told.contains(":4:50: teamwork.role_swap: the field `protocol` is missing"), "{told}");
+}
+
+#[test]
 fn bases_that_are_missing_in_a_circle_too_many_or_wrong_are_told_with_their_place() {
     let own = Own::new();
     own.write("missing.ron", based_on("nobody"));
@@ -146,17 +168,19 @@ fn a_scenarios_roles_are_given_to_a_strategy_that_is_read_again() {
     let strategy = own.write("team.ron", shipped(AssetKind::Strategy, "hammerheads_2001"));
     let scenario = format!(
         "(name: \"Mine\", source: \"a test\", game: \"four_legged_2005\", seconds: 1, ball: (at: (1, 0)),
-          home: (strategy: {:?}, robot: \"aibo_ers7\", players: [(number: 0, at: (0, 0), role: \"forward\")]),
+          home: (strategy: {:?}, teamwork: (talk: (claim_radius: 3)), robot: \"aibo_ers7\", players: [(number: 0, at: (0, 0), role: \"forward\")]),
           expect: [Eventually(what: InZone(what: Ball, zone: Half(Home)), within: 1)])",
         strategy.to_string_lossy()
     );
     let scenario = own.write("scenario.ron", scenario);
-    let plan =
-        ScenarioPlan::read(&assets(), &scenario).unwrap_or_else(|error| panic!("{error}")).with_seed(1);
+    let plan = ScenarioPlan::read(&assets(), &scenario.into())
+        .unwrap_or_else(|error| panic!("{error}"))
+        .with_seed(1);
     let team = plan.team(Team::Home);
     let own_roles =
         Strategy::read(&assets(), &strategy, None).strategy.expect("the strategy is sound").players;
     assert_ne!(team.strategy.players, own_roles);
+    assert_eq!(team.strategy.teamwork.talk.claim_radius, 3.0);
     assert_eq!(plan.reread(Team::Home, &assets()).strategy.as_ref(), Ok(&*team.strategy));
     own.write(
         "team.ron",

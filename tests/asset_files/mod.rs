@@ -1,6 +1,7 @@
 //! Files of all kinds, as a person keeps, damages and changes them.
 
 mod bases;
+mod variants;
 
 use std::fs;
 use std::path::PathBuf;

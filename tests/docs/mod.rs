@@ -31,7 +31,8 @@ fn the_scenario_in_the_docs_passes() {
     let path = folder.path().join("example.ron");
     let example = page.blocks("ron").next().expect("the page has an example");
     std::fs::write(&path, example).expect("the folder can be written to");
-    let report = ScenarioPlan::read(&assets(), &path).unwrap_or_else(|error| panic!("{error}")).run(None);
+    let report =
+        ScenarioPlan::read(&assets(), &path.into()).unwrap_or_else(|error| panic!("{error}")).run(None);
     assert!(report.passed(), "{report}");
 }
 

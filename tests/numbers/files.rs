@@ -94,7 +94,7 @@ fn plan(
     scenario: &Path,
 ) -> Result<MatchPlan, DataError> {
     if game.is_empty() {
-        return Ok(ScenarioPlan::read(assets, scenario)?.with_seed(1));
+        return Ok(ScenarioPlan::read(assets, &scenario.into())?.with_seed(1));
     }
     let radio = (game == "four_legged_2005").then(|| "awful".to_owned());
     let choice = Choice { file: Some(game.into()), radio, seed: 1, ..Choice::default() };

@@ -1,8 +1,9 @@
 //! `touchline check`: reads assets as a match would and says what is wrong with them, and plays scenarios.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
@@ -10,13 +11,14 @@ use super::ending::{CommandError, Ending};
 use super::interrupt::Interrupt;
 use super::kinds;
 use super::whole_file::{check_writable, write_whole};
-use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
-use crate::lab::scenario::{Report, ScenarioPlan, junit};
+use crate::data::{AssetFolder, AssetKind, DataError, Field};
+use crate::lab::scenario::{Report, ScenarioPlan, ScenarioRef, junit};
 
 #[derive(Args, Debug, Default)]
 pub(super) struct CheckCommand {
-    /// Files of any kind; everything in the asset folder, if none is given.
-    files: Vec<PathBuf>,
+    /// Files of any kind; everything in the asset folder, if none is given. A colon and a name behind a scenario's file
+    /// single out one of its variants.
+    files: Vec<String>,
     /// Also play each scenario without the mechanism that it depends on: then it must fail.
     #[arg(long)]
     ablate: bool,
@@ -33,7 +35,7 @@ struct Findings<'a, W> {
     files: BTreeMap<AssetKind, usize>,
     faults: usize,
     /// The scenarios' names, and whose they are.
-    scenarios: BTreeMap<String, PathBuf>,
+    scenarios: BTreeMap<String, ScenarioRef>,
     reports: Vec<Report>,
 }
 
@@ -54,9 +56,10 @@ impl CheckCommand {
             self.check_all(assets, &mut findings)?;
         }
         for file in &self.files {
-            match kinds::kind_of(file) {
-                Ok(kind) => self.check(assets, kind, file, &mut findings)?,
-                Err(error) => findings.tell(file, Err(error))?,
+            let file = ScenarioRef::at(file);
+            match kinds::kind_of(&file.path) {
+                Ok(kind) => self.check(assets, kind, &file, &mut findings)?,
+                Err(error) => findings.tell(&file, Err(error))?,
             }
         }
         if self.ablate {
@@ -77,7 +80,7 @@ impl CheckCommand {
     ) -> Result<(), CommandError> {
         for kind in AssetKind::ALL {
             for path in assets.files(kind)? {
-                self.check(assets, kind, &path, findings)?;
+                self.check(assets, kind, &path.into(), findings)?;
             }
         }
         if findings.files.is_empty() {
@@ -90,17 +93,17 @@ impl CheckCommand {
         &self,
         assets: &AssetFolder,
         kind: AssetKind,
-        path: &Path,
+        file: &ScenarioRef,
         findings: &mut Findings<impl Write>,
     ) -> io::Result<()> {
         *findings.files.entry(kind).or_default() += 1;
-        match kinds::read(assets, kind, path) {
-            Ok(None) => findings.tell(path, Ok(())),
-            Ok(Some(plan)) => match findings.know(&plan) {
-                Ok(()) => self.play(&plan, findings),
-                fault => findings.tell(path, fault),
-            },
-            Err(error) => findings.tell(path, Err(error)),
+        match kinds::read(assets, kind, file) {
+            Ok(plans) if plans.is_empty() => findings.tell(file, Ok(())),
+            Ok(plans) => plans.iter().try_for_each(|plan| match findings.know(plan) {
+                Ok(()) => self.play(plan, findings),
+                fault => findings.tell(&plan.origin, fault),
+            }),
+            Err(error) => findings.tell(file, Err(error)),
         }
     }
 
@@ -117,9 +120,9 @@ impl CheckCommand {
 }
 
 impl<W: Write> Findings<'_, W> {
-    fn tell(&mut self, what: &Path, result: Result<(), DataError>) -> io::Result<()> {
+    fn tell(&mut self, what: &impl Display, result: Result<(), DataError>) -> io::Result<()> {
         match result {
-            Ok(()) => writeln!(self.out, "ok    {}", what.display()),
+            Ok(()) => writeln!(self.out, "ok    {what}"),
             Err(error) => {
                 self.faults += 1;
                 writeln!(self.out, "fault {error}")
@@ -129,12 +132,12 @@ impl<W: Write> Findings<'_, W> {
 
     /// Remembers a scenario's name, by which people tell the results.
     fn know(&mut self, plan: &ScenarioPlan) -> Result<(), DataError> {
-        let path = self.scenarios.entry(plan.scenario.name.clone()).or_insert_with(|| plan.path.clone());
-        if *path == plan.path {
+        let origin = self.scenarios.entry(plan.scenario.name.clone()).or_insert_with(|| plan.origin.clone());
+        if *origin == plan.origin {
             return Ok(());
         }
-        let message = format!("is also the name of {}", path.display());
-        Err(Source::read(&plan.path)?.error_at(&Field::root().key("name"), message))
+        let message = format!("is also the name of {origin}");
+        Err(plan.error_at(&Field::root().key("name"), message))
     }
 
     /// How many files of each kind were read.
@@ -158,7 +161,7 @@ impl<W: Write> Findings<'_, W> {
             return Ok(());
         }
         let message = "has no effect: no scenario among the files says what it depends on";
-        self.tell(Path::new("--ablate"), Err(DataError::new("--ablate", message)))
+        self.tell(&"--ablate", Err(DataError::new("--ablate", message)))
     }
 
     fn conclude(self) -> io::Result<Ending> {

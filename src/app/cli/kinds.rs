@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::comms::radio::Radio;
 use crate::data::{AssetFolder, AssetKind, DataError, Source, TopLevel, field_names};
 use crate::game::{Choice, MatchFile, MatchPlan, checked, read_addresses, read_strategy_alone};
-use crate::lab::scenario::{ScenarioFile, ScenarioPlan};
+use crate::lab::scenario::{ScenarioFile, ScenarioPlan, ScenarioRef};
 use crate::pitch::Pitch;
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::StrategyFile;
@@ -50,17 +50,18 @@ fn fields_of(kind: AssetKind) -> &'static [&'static str] {
     }
 }
 
-/// Reads a file of a kind, and the files that it rests on; a scenario is to be played.
+/// Reads a file of a kind, and the files that it rests on; scenarios are to be played, each variant of its own.
 ///
 /// # Errors
 /// The first fault, with its place.
 pub(super) fn read(
     assets: &AssetFolder,
     kind: AssetKind,
-    path: &Path,
-) -> Result<Option<ScenarioPlan>, DataError> {
+    file: &ScenarioRef,
+) -> Result<Vec<ScenarioPlan>, DataError> {
+    let path = &file.path;
     match kind {
-        AssetKind::Scenario => return ScenarioPlan::read(assets, path).map(Some),
+        AssetKind::Scenario => return ScenarioPlan::read_all(assets, file),
         AssetKind::Strategy => drop(read_strategy_alone(assets, path)?),
         AssetKind::Match => {
             MatchPlan::read_file(assets, path, &Choice::default())?;
@@ -71,7 +72,7 @@ pub(super) fn read(
         AssetKind::Radio => drop(checked(path, Radio::fault)?),
         AssetKind::Addresses => drop(read_addresses(path)?),
     }
-    Ok(None)
+    Ok(Vec::new())
 }
 
 #[cfg(test)]
@@ -134,7 +135,7 @@ mod tests {
             let lines = bytes.iter().filter(|byte| **byte == b'\n').count() + 1;
             // Its kind may have become another.
             let kinds = [kind_of(&damaged), Ok(kind)];
-            for error in kinds.into_iter().filter_map(|kind| read(&shipped(), kind.ok()?, &damaged).err()) {
+            for error in kinds.into_iter().filter_map(|kind| read(&shipped(), kind.ok()?, &damaged.clone().into()).err()) {
                 prop_assert_eq!(error.to_string().lines().count(), 1);
                 // A sound match may name a strategy that does not do for it.
                 prop_assert!(error.path == damaged || error.path.starts_with(shipped().root()), "{}", error);

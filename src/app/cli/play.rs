@@ -1,7 +1,6 @@
 //! `touchline play`, and `touchline` alone: a match or a scenario in the window, or headless where there is none.
 
 use std::io::Write;
-use std::path::Path;
 
 use clap::Args;
 
@@ -9,16 +8,16 @@ use crate::app::cli::ending::{CommandError, Ending, tell};
 use crate::app::cli::interrupt::Interrupt;
 use crate::app::cli::options::{HostOptions, MatchOptions, SeedOption};
 use crate::app::match_request::MatchRequest;
-use crate::data::{AssetFolder, AssetKind, DataError};
+use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
-use crate::lab::scenario::ScenarioPlan;
+use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
 use crate::rng::DEFAULT_SEED;
 
 #[derive(Args, Debug, Default)]
 pub(super) struct PlayCommand {
-    /// A scenario: a name among the assets or a path; played with its first seed unless another is given, and with
-    /// the ball at the first of its places.
+    /// A scenario: a name among the assets or a path, and `:VARIANT` behind it for another of its variants than the
+    /// first; played with its first seed unless another is given, and with the ball at the first of its places.
     #[arg(conflicts_with_all = ["MatchOptions", "HostOptions", "pilot"])]
     scenario: Option<String>,
     #[command(flatten)]
@@ -35,7 +34,7 @@ pub(super) struct PlayCommand {
 impl PlayCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(name) = &self.scenario {
-            return self.run_scenario(assets, &assets.file(AssetKind::Scenario, name), out);
+            return self.run_scenario(assets, ScenarioRef::named(assets, name), out);
         }
         let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
         let plan = MatchPlan::read(assets, &choice)?;
@@ -61,13 +60,13 @@ impl PlayCommand {
     fn run_scenario(
         &self,
         assets: &AssetFolder,
-        path: &Path,
+        scenario: ScenarioRef,
         out: &mut impl Write,
     ) -> Result<Ending, CommandError> {
-        let mut plan = ScenarioPlan::read(assets, path)?;
+        let mut plan = ScenarioPlan::read(assets, &scenario)?;
         let seed = self.seed.seed;
         let Some(missing) = missing_for_a_window() else {
-            return Ok(open_window(assets, Some(MatchRequest::Scenario { path: path.to_owned(), seed })));
+            return Ok(open_window(assets, Some(MatchRequest::Scenario { scenario, seed })));
         };
         let interrupt = Interrupt::listen();
         tell(format_args!("{missing}, so the scenario is played headless"));

@@ -2,7 +2,6 @@
 
 mod silent_robots;
 
-use std::path::PathBuf;
 use std::time::Duration;
 
 use bevy::gizmos::prelude::GizmoAsset;
@@ -22,10 +21,11 @@ use crate::app::view::state::{
     Piloted, Playback, Question, Selected, Session,
 };
 use crate::app::{inspector, view};
-use crate::data::{AssetFolder, AssetKind};
+use crate::data::AssetFolder;
 use crate::game::Choice;
 use crate::game::requests::Requests;
 use crate::ids::{RobotId, Team};
+use crate::lab::scenario::ScenarioRef;
 use crate::world::referee::{MatchState, Removal, RemovalReason};
 
 const ROBOT: RobotId = RobotId::new(Team::Home, 1);
@@ -89,8 +89,8 @@ impl LaidOutWindow {
     }
 
     fn scenario(name: &str) -> LaidOutWindow {
-        let path: PathBuf = assets().file(AssetKind::Scenario, name);
-        LaidOutWindow::with(MatchRequest::Scenario { path, seed: None })
+        let scenario = ScenarioRef::named(&assets(), name);
+        LaidOutWindow::with(MatchRequest::Scenario { scenario, seed: None })
     }
 
     /// Opens the inspector of a robot, and these overlays and panels.

@@ -98,6 +98,8 @@ pub enum Condition {
         #[serde(default)]
         by: Option<RobotId>,
     },
+    /// No robot of the team has given its lock.
+    Unlocked(Team),
     /// The robot has booked the ball and goes for it.
     Goes(RobotId),
     /// How many robots of the team go for the ball that they have booked.

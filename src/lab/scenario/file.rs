@@ -1,69 +1,96 @@
 //! A scenario as it is written: the serde types of `assets/scenarios/*.ron`, not yet checked.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::condition::Expectation;
 use super::event::{Dependency, TimedEvent};
 use crate::comms::radio::FaultRule;
+use crate::data::{DataError, Field, Source};
+use crate::game::TeamFile;
+use crate::strategy::teamwork::TeamworkFile;
 
-/// A whole scenario file. Points and velocities are in the pitch frame, which is home's team frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// A whole scenario file, or what one of its variants says. Points and velocities are in the pitch frame, which is home's team
+/// frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct ScenarioFile {
-    /// What the scenario shows, as a sentence.
-    pub name: String,
-    /// Where the claim comes from, such as "Hammerheads 2001, section VI-B".
-    pub source: String,
-    /// More about it, for people.
-    #[serde(default)]
-    pub description: String,
-    /// The match whose pitch, ball and rules it has, by its file's name.
-    #[serde(default = "friendly")]
-    pub game: String,
+    /// What the scenario shows, as a sentence; needed.
+    pub name: Option<String>,
+    /// Where the claim comes from, such as "Hammerheads 2001, section VI-B"; needed.
+    pub source: Option<String>,
+    pub description: Option<String>,
+    /// The match whose pitch, ball and rules it has, by its file's name; `friendly` if not given.
+    pub game: Option<String>,
     /// Another pitch than that match's, by its file's name.
-    #[serde(default)]
     pub pitch: Option<String>,
-    /// A radio, by its file's name.
-    #[serde(default = "perfect")]
-    pub radio: String,
-    /// The seeds that it is played with.
-    #[serde(default)]
-    pub seeds: Seeds,
-    /// With how many of the seeds it may fail, at each place of the ball.
-    #[serde(default)]
-    pub may_fail: u16,
-    /// How long it takes.
-    pub seconds: f32,
-    /// Whether the rules of a match are enforced.
-    #[serde(default)]
-    pub referee: Referee,
-    /// The home team.
-    pub home: SideFile,
-    /// The away team; nobody if not given.
-    #[serde(default)]
+    /// A radio, by its file's name; `perfect` if not given.
+    pub radio: Option<String>,
+    pub seeds: Option<Seeds>,
+    /// With how many of the seeds it may fail, at each place of the ball; none if not given.
+    pub may_fail: Option<u16>,
+    /// How long it takes; needed.
+    pub seconds: Option<f32>,
+    pub referee: Option<Referee>,
+    /// Needed.
+    pub home: Option<SideFile>,
     pub away: Option<SideFile>,
-    /// Where the ball starts.
-    pub ball: BallFile,
-    /// What the radio does to which packets.
-    #[serde(default)]
+    /// Needed.
+    pub ball: Option<BallFile>,
     pub faults: Vec<FaultRule>,
-    /// What happens when.
-    #[serde(default)]
     pub script: Vec<TimedEvent>,
     /// What must hold.
     pub expect: Vec<Expectation>,
     /// What the scenario is about: without it, it must fail.
-    #[serde(default)]
     pub depends_on: Option<Dependency>,
+    /// Scenarios of which each is this file with changes: `faults`, `script` and `expect` are added to the file's own, sides are
+    /// filled field by field, and anything else takes the place of what the file says. A file with variants is played as
+    /// each of them, and not by itself.
+    pub variants: BTreeMap<String, ScenarioFile>,
 }
 
-fn friendly() -> String {
-    "friendly".to_owned()
-}
+impl ScenarioFile {
+    /// What is played: the file itself or each of its variants, with its name.
+    pub fn scenarios(&self) -> Vec<(Option<&str>, ScenarioFile)> {
+        if self.variants.is_empty() {
+            return vec![(None, self.clone())];
+        }
+        let variants = self.variants.iter();
+        variants.map(|(name, variant)| (Some(name.as_str()), variant.clone().over(self.clone()))).collect()
+    }
 
-fn perfect() -> String {
-    "perfect".to_owned()
+    /// The text that tells where the fields of a variant of this file stand in it.
+    pub(super) fn source_of(&self, source: &Source, variant: Option<&str>) -> Source {
+        let Some(name) = variant else { return source.clone() };
+        let lists =
+            [("faults", self.faults.len()), ("script", self.script.len()), ("expect", self.expect.len())];
+        source.overlaid(Field::root().key("variants").key(name), lists.into())
+    }
+
+    fn over(self, base: ScenarioFile) -> ScenarioFile {
+        ScenarioFile {
+            name: self.name.or(base.name),
+            source: self.source.or(base.source),
+            description: self.description.or(base.description),
+            game: self.game.or(base.game),
+            pitch: self.pitch.or(base.pitch),
+            radio: self.radio.or(base.radio),
+            seeds: self.seeds.or(base.seeds),
+            may_fail: self.may_fail.or(base.may_fail),
+            seconds: self.seconds.or(base.seconds),
+            referee: self.referee.or(base.referee),
+            home: SideFile::over(self.home, base.home),
+            away: SideFile::over(self.away, base.away),
+            ball: self.ball.or(base.ball),
+            faults: [base.faults, self.faults].concat(),
+            script: [base.script, self.script].concat(),
+            expect: [base.expect, self.expect].concat(),
+            depends_on: self.depends_on.or(base.depends_on),
+            variants: self.variants,
+        }
+    }
 }
 
 /// The seeds that a scenario is played with: `10` for 1 to 10, or a list.
@@ -103,23 +130,51 @@ pub enum Referee {
 }
 
 /// One side of a scenario: names of files, and the robots that take part.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct SideFile {
-    /// The strategy's file.
-    pub strategy: String,
-    /// The file of the robots' kind.
-    #[serde(default = "cye")]
-    pub robot: String,
-    /// The file of the robots' senses.
-    #[serde(default = "perfect")]
-    pub sensing: String,
-    /// The robots that take part.
-    pub players: Vec<PlayerFile>,
+    /// Needed.
+    pub strategy: Option<String>,
+    /// What differs from the strategy's own `teamwork`, field by field.
+    pub teamwork: TeamworkFile,
+    /// `cye`, if not given.
+    pub robot: Option<String>,
+    /// `perfect`, if not given.
+    pub sensing: Option<String>,
+    /// All of the strategy's players, at the places of one of its line-ups; those for its own kick-off if neither this nor
+    /// `players` is given.
+    pub line_up: Option<String>,
+    pub players: Option<Vec<PlayerFile>>,
 }
 
-fn cye() -> String {
-    "cye".to_owned()
+impl SideFile {
+    fn over(own: Option<SideFile>, base: Option<SideFile>) -> Option<SideFile> {
+        let (Some(own), Some(base)) = (&own, &base) else { return own.or(base) };
+        let (own, base) = (own.clone(), base.clone());
+        let placed = if own.line_up.is_some() || own.players.is_some() { &own } else { &base };
+        Some(SideFile {
+            line_up: placed.line_up.clone(),
+            players: placed.players.clone(),
+            teamwork: own.teamwork.over(base.teamwork),
+            strategy: own.strategy.or(base.strategy),
+            robot: own.robot.or(base.robot),
+            sensing: own.sensing.or(base.sensing),
+        })
+    }
+
+    /// The files that it names.
+    ///
+    /// # Errors
+    /// If there is no strategy among them; the side stands at `at`.
+    pub(super) fn files(&self, source: &Source, at: &Field) -> Result<TeamFile, DataError> {
+        Ok(TeamFile {
+            strategy: source.required(&self.strategy, at, "strategy")?,
+            teamwork: self.teamwork.clone(),
+            robot: self.robot.clone().unwrap_or_else(|| "cye".into()),
+            sensing: self.sensing.clone().unwrap_or_else(|| "perfect".into()),
+            team_number: None,
+        })
+    }
 }
 
 /// A robot that takes part.
@@ -139,6 +194,13 @@ pub struct PlayerFile {
     /// Stands on the pitch switched off.
     #[serde(default)]
     pub off: bool,
+}
+
+impl PlayerFile {
+    /// Looks to the east.
+    pub(super) fn at(number: u8, at: Vec2) -> PlayerFile {
+        PlayerFile { number, at, facing: 0.0, role: None, off: false }
+    }
 }
 
 /// Where the ball starts.
@@ -186,7 +248,7 @@ mod tests {
     use super::super::{Area, Condition, Event, Expectation, Packets, Thing};
     use super::*;
     use crate::comms::tcm::DataType;
-    use crate::data::{Source, ron_options};
+    use crate::data::ron_options;
     use crate::geometry::Zone;
     use crate::ids::{RobotId, Team};
     use crate::robot::Restart;
@@ -208,14 +270,14 @@ mod tests {
         let text = r#"(name: "a", source: "b", seconds: 3, ball: (at: (0, 0)), expect: [],
             home: (strategy: "s", players: [(number: 1, at: (1, 2))]))"#;
         let file: ScenarioFile = parsed(text);
-        assert_eq!((file.game.as_str(), file.radio.as_str()), ("friendly", "perfect"));
-        assert_eq!((file.home.robot.as_str(), file.home.sensing.as_str()), ("cye", "perfect"));
-        assert_eq!(file.seeds.to_vec(), (1..=10).collect::<Vec<_>>());
-        assert_eq!((file.referee, file.depends_on, file.away), (Referee::Nobody, None, None));
+        let home = file.home.unwrap();
+        let files = home.files(&Source::new("x.ron", text), &Field::root().key("home")).unwrap();
+        assert_eq!((files.robot.as_str(), files.sensing.as_str()), ("cye", "perfect"));
+        assert_eq!(file.seeds.unwrap_or_default().to_vec(), (1..=10).collect::<Vec<_>>());
+        assert_eq!((file.referee.unwrap_or_default(), file.depends_on), (Referee::Nobody, None));
         let at = Vec2::new(1.0, 2.0);
-        let player = PlayerFile { number: 1, at, facing: 0.0, role: None, off: false };
-        assert_eq!(file.home.players, [player]);
-        assert_eq!(file.ball.velocity, Vec2::ZERO);
+        assert_eq!(home.players, Some(vec![PlayerFile::at(1, at)]));
+        assert_eq!(file.ball.unwrap().velocity, Vec2::ZERO);
     }
 
     #[test]

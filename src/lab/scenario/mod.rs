@@ -17,12 +17,12 @@ mod stage;
 mod watch;
 mod words;
 
-pub use check::{Known, KnownTeam, Player, Scenario, Side, check};
+pub use check::{Known, KnownTeam, Player, Scenario, check};
 pub use condition::{Area, Condition, Expectation, Packets, Thing};
 pub use event::{Dependency, Event, TimedEvent};
 pub use file::{BallFile, Places, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
 pub use judge::{Failure, Judge, Verdict};
-pub use plan::ScenarioPlan;
+pub use plan::{ScenarioPlan, ScenarioRef};
 pub use report::{Report, Run, junit};
 pub use run::observe;
 pub use scene::{RobotScene, Scene};

@@ -1,18 +1,19 @@
 //! From a scenario file to matches that can be played, one for each seed.
 
+use std::fmt::{self, Display, Formatter};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::check::{Known, KnownTeam, Scenario, Side, check};
+use super::check::{Known, KnownTeam, Player, Scenario, check};
 use super::event::{Dependency, Event};
 use super::file::{Referee, ScenarioFile, SideFile};
 use crate::clock::{Clock, TICK_HZ};
 use crate::comms::radio::{Partition, Radio};
-use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path, no_such};
 use crate::game::requests::{BodyChange, RadioChange, Request, RobotChange};
-use crate::game::{Choice, MatchPlan, Placed, Situation, TeamFile, TeamPlan, checked, file_named};
+use crate::game::{Choice, DEFAULT_MATCH, MatchPlan, Placed, Situation, TeamPlan, checked, file_named};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
@@ -21,60 +22,156 @@ use crate::robot::RobotFailure;
 use crate::strategy::Strategy;
 use crate::strategy::teamwork::Protocol;
 
+/// A scenario: its file, and which of the file's variants it is, if there are any.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScenarioRef {
+    pub path: PathBuf,
+    pub variant: Option<String>,
+}
+
+impl ScenarioRef {
+    /// The scenario that people name: a file among the assets or a path, and perhaps a variant behind a colon, as in
+    /// `swap_locks_time_out:paper`.
+    pub fn named(assets: &AssetFolder, name: &str) -> ScenarioRef {
+        let ScenarioRef { path, variant } = ScenarioRef::at(name);
+        ScenarioRef { path: assets.file(AssetKind::Scenario, &path.to_string_lossy()), variant }
+    }
+
+    /// As [`ScenarioRef::named`], but only a path before the colon.
+    pub fn at(path: &str) -> ScenarioRef {
+        let (path, variant) = match path.rsplit_once(':').filter(|_| !Path::new(path).exists()) {
+            Some((path, variant)) if !is_path(variant) => (path, Some(variant)),
+            _ => (path, None),
+        };
+        ScenarioRef { path: path.into(), variant: variant.map(str::to_owned) }
+    }
+}
+
+impl<P: Into<PathBuf>> From<P> for ScenarioRef {
+    fn from(path: P) -> ScenarioRef {
+        ScenarioRef { path: path.into(), variant: None }
+    }
+}
+
+/// As people name it.
+impl Display for ScenarioRef {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        self.variant.as_ref().map_or(Ok(()), |variant| write!(f, ":{variant}"))
+    }
+}
+
 /// A scenario with everything that its matches need.
 #[derive(Clone, Debug)]
 pub struct ScenarioPlan {
-    pub path: PathBuf,
+    pub origin: ScenarioRef,
     pub scenario: Scenario,
+    source: Source,
     /// The match, with the first seed.
     match_plan: MatchPlan,
 }
 
 impl ScenarioPlan {
-    /// Reads a scenario and all files that it names.
+    /// Reads a scenario and all files that it names: of a file with variants the one named or else the first.
     ///
     /// # Errors
     /// The first file that is missing or wrong, with the place of the fault.
-    pub fn read(assets: &AssetFolder, path: &Path) -> Result<ScenarioPlan, DataError> {
-        let source = Source::read(path)?;
+    pub fn read(assets: &AssetFolder, scenario: &ScenarioRef) -> Result<ScenarioPlan, DataError> {
+        let mut plans = ScenarioPlan::read_some(assets, scenario, 1)?;
+        Ok(plans.swap_remove(0))
+    }
+
+    /// As [`ScenarioPlan::read`], but for all variants if none is named.
+    ///
+    /// # Errors
+    /// As [`ScenarioPlan::read`].
+    pub fn read_all(assets: &AssetFolder, scenario: &ScenarioRef) -> Result<Vec<ScenarioPlan>, DataError> {
+        ScenarioPlan::read_some(assets, scenario, usize::MAX)
+    }
+
+    fn read_some(
+        assets: &AssetFolder,
+        scenario: &ScenarioRef,
+        most: usize,
+    ) -> Result<Vec<ScenarioPlan>, DataError> {
+        let source = Source::read(&scenario.path)?;
         let file: ScenarioFile = source.parse()?;
-        let game = file_named(assets, &source, AssetKind::Match, ("game", &file.game))?;
+        let is_wanted =
+            |name: &Option<&str>| scenario.variant.is_none() || scenario.variant.as_deref() == *name;
+        let all = file.scenarios().into_iter().filter(|(name, _)| is_wanted(name)).take(most);
+        let plans = all.map(|(name, variant)| {
+            let (source, path) = (file.source_of(&source, name), scenario.path.clone());
+            ScenarioPlan::of(
+                assets,
+                ScenarioRef { path, variant: name.map(str::to_owned) },
+                &source,
+                &variant,
+            )
+        });
+        let plans = plans.collect::<Result<Vec<_>, _>>()?;
+        match &scenario.variant {
+            Some(name) if plans.is_empty() => {
+                let message = no_such("variant", name, file.variants.keys());
+                Err(source.error_at(&Field::root().key("variants"), message))
+            }
+            _ => Ok(plans),
+        }
+    }
+
+    /// A scenario whose variant is laid over the rest of its file already.
+    fn of(
+        assets: &AssetFolder,
+        origin: ScenarioRef,
+        source: &Source,
+        file: &ScenarioFile,
+    ) -> Result<ScenarioPlan, DataError> {
+        if origin.variant.is_some() && !file.variants.is_empty() {
+            return Err(source.error_at(&Field::root().key("variants"), "a variant has none of its own"));
+        }
+        let game = file.game.as_deref().unwrap_or(DEFAULT_MATCH);
+        let game = file_named(assets, source, AssetKind::Match, ("game", game))?;
         let usual = MatchPlan::read_file(assets, &game, &Choice::default())?;
         let pitch = match &file.pitch {
             Some(name) => {
-                checked(&file_named(assets, &source, AssetKind::Pitch, ("pitch", name))?, Pitch::fault)?
+                checked(&file_named(assets, source, AssetKind::Pitch, ("pitch", name))?, Pitch::fault)?
             }
             None => usual.pitch.clone(),
         };
-        let home = team(assets, &source, ("home", &file.home), (&pitch, &usual.ball))?;
-        let away = file.away.as_ref().map_or(("home", &file.home), |away| ("away", away));
-        let away = team(assets, &source, away, (&pitch, &usual.ball))?;
-        let known = Known {
+        let home = source.required(&file.home, &Field::root(), "home")?;
+        let team = |side, file| team(assets, source, (side, file), (&pitch, &usual.ball));
+        let teams = [
+            team("home", &home)?,
+            file.away.as_ref().map_or_else(|| team("home", &home), |away| team("away", away))?,
+        ];
+        let mut known = Known {
             pitch: &pitch,
             ball: &usual.ball,
-            teams: [known(&home), if file.away.is_some() { known(&away) } else { KnownTeam::default() }],
+            teams: teams.each_ref().map(known),
             radios: assets.names(AssetKind::Radio),
         };
-        let scenario = check(&file, &source, &known)?;
+        if file.away.is_none() {
+            known.teams[1] = KnownTeam::default();
+        }
+        let scenario = check(file, source, &known)?;
         let mut match_plan = MatchPlan {
             name: scenario.name.clone(),
-            pitch,
             radio: checked(&assets.file(AssetKind::Radio, &scenario.radio), Radio::fault)?,
-            teams: [home, away],
+            teams: teams.clone(),
             seed: scenario.seeds.first().copied().unwrap_or(1),
             situation: Some(situation(&scenario)),
             faults: scenario.faults.clone(),
-            ..usual
+            pitch: pitch.clone(),
+            ..usual.clone()
         };
-        for (team, side) in Team::BOTH.into_iter().zip(&scenario.sides) {
-            if let Some(side) = side {
+        for (team, players) in Team::BOTH.into_iter().zip(&scenario.sides) {
+            if let Some(players) = players {
                 let at = Field::root().key(team.to_string());
-                let cast = match_plan.teams[team.index()].cast(cast(side));
+                let cast = match_plan.teams[team.index()].cast(cast(players));
                 cast.map_err(|message| source.error_at(&at, message))?;
             }
         }
         match_plan.script = script(assets, &scenario, &match_plan)?;
-        let plan = ScenarioPlan { path: path.to_owned(), scenario, match_plan };
+        let plan = ScenarioPlan { origin, scenario, source: source.clone(), match_plan };
         match plan.scenario.depends_on {
             Some(dependency) if !plan.has(dependency) => {
                 let at = Field::root().key("depends_on");
@@ -82,6 +179,11 @@ impl ScenarioPlan {
             }
             _ => Ok(plan),
         }
+    }
+
+    /// An error about a field of the file.
+    pub fn error_at(&self, field: &Field, message: String) -> DataError {
+        self.source.error_at(field, message)
     }
 
     /// The match with a seed, and with the ball at the first of its places.
@@ -134,18 +236,17 @@ fn team(
     (side, file): (&str, &SideFile),
     (pitch, ball): (&Pitch, &BallKind),
 ) -> Result<TeamPlan, DataError> {
-    let SideFile { strategy, robot, sensing, .. } = file;
-    let (strategy, robot, sensing) = (strategy.clone(), robot.clone(), sensing.clone());
-    let names = TeamFile { strategy, robot, sensing, team_number: None };
-    names.check(assets, source, side, true)?;
-    TeamPlan::read(assets, &names, pitch, ball)
+    let files = file.files(source, &Field::root().key(side))?;
+    files.check(assets, source, side, true)?;
+    TeamPlan::read(assets, &files, (source, side), (pitch, ball))
 }
 
 fn known(team: &TeamPlan) -> KnownTeam<'_> {
     let strategy = &team.strategy;
     let states = strategy.machines.iter().flat_map(|machine| &machine.states);
     KnownTeam {
-        players: strategy.players.len(),
+        kick_off: &strategy.kick_off.ours,
+        line_ups: strategy.line_ups.iter().map(|(name, places)| (name.as_str(), &places[..])).collect(),
         kind: Some(&team.kind),
         roles: strategy.roles.iter().map(|role| role.name.as_str()).collect(),
         activities: states.map(|state| state.name.as_str()).collect(),
@@ -153,8 +254,8 @@ fn known(team: &TeamPlan) -> KnownTeam<'_> {
 }
 
 /// The roles that a scenario gives to the players of a side, by number.
-fn cast(side: &Side) -> Vec<(u8, String)> {
-    side.players.iter().filter_map(|player| Some((player.id.number, player.role.clone()?))).collect()
+fn cast(players: &[Player]) -> Vec<(u8, String)> {
+    players.iter().filter_map(|player| Some((player.id.number, player.role.clone()?))).collect()
 }
 
 fn role(strategy: &Strategy, name: &str) -> Option<RoleIndex> {
@@ -163,7 +264,7 @@ fn role(strategy: &Strategy, name: &str) -> Option<RoleIndex> {
 }
 
 fn situation(scenario: &Scenario) -> Situation {
-    let placed = |player: &super::check::Player| (player.id, Placed { pose: player.pose, on: player.on });
+    let placed = |player: &Player| (player.id, Placed { pose: player.pose, on: player.on });
     Situation {
         refereed: scenario.referee == Referee::Whole,
         robots: scenario.players().map(placed).collect(),

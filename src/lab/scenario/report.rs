@@ -14,8 +14,9 @@ use crate::data::in_one_line;
 /// All runs of one scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The file's name among the assets.
+    /// The file's name, and the variant's.
     pub file: String,
+    pub variant: Option<String>,
     /// What the scenario shows.
     pub name: String,
     /// What was switched off: the scenario must then fail with at least one seed.
@@ -69,7 +70,10 @@ impl Report {
     }
 
     fn title(&self) -> String {
-        let name = in_one_line(&self.name);
+        let mut name = in_one_line(&self.name);
+        if let Some(variant) = &self.variant {
+            name += &format!(" [{}]", in_one_line(variant));
+        }
         match self.without {
             Some(dependency) => format!("{name}, without {dependency}"),
             None => name,

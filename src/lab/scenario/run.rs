@@ -42,7 +42,8 @@ impl ScenarioPlan {
         });
         let runs: Vec<Run> = runs.collect();
         Report {
-            file: self.path.display().to_string(),
+            file: self.origin.to_string(),
+            variant: self.origin.variant.clone(),
             name: self.scenario.name.clone(),
             without,
             may_fail: self.scenario.may_fail,

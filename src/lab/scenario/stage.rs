@@ -1,5 +1,7 @@
 //! For the tests: an example scenario, what its names refer to, and a stage on which scenes are set.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::Vec2;
 
 use super::check::{Known, KnownTeam, Scenario, check};
@@ -52,8 +54,10 @@ pub(super) fn checked(text: &str) -> Result<Scenario, DataError> {
     let source = Source::new("x.ron", text);
     let pitch = testing::pitch();
     let kind = testing::cye();
+    let places = [Vec2::ZERO; 4];
     let team = || KnownTeam {
-        players: 4,
+        kick_off: &places,
+        line_ups: BTreeMap::new(),
         kind: Some(&kind),
         roles: vec!["goalie", "halfback", "floater", "forward"],
         activities: vec!["search", "acquire", "push"],

@@ -125,6 +125,7 @@ fn holds(condition: &Condition, scene: &Scene) -> bool {
         Condition::Locked { robot, by } => {
             of(robot, &|it| it.locked_by.is_some_and(|locked_by| by.is_none_or(|by| by.number == locked_by)))
         }
+        Condition::Unlocked(team) => locked(scene, *team).next().is_none(),
         Condition::Distance { from, to, below, above } => {
             distance(scene, *from, *to).is_some_and(|metres| within(metres, *below, *above))
         }
@@ -205,6 +206,11 @@ fn fact(condition: &Condition, held: bool, scene: &Scene) -> String {
             Some(by) => format!("was locked by {}", RobotId::new(robot.team, by)),
             None => "was not locked".into(),
         }),
+        Condition::Unlocked(team) => {
+            let locked = locked(scene, *team);
+            let locked = locked.map(|(id, by)| format!("{id} was locked by {}", RobotId::new(*team, by)));
+            list(locked, " and ").non_empty_or("no robot was locked")
+        }
         Condition::Distance { from, to, .. } => match distance(scene, *from, *to) {
             Some(metres) => format!("{from} was {metres:.2} m from {to}"),
             None => format!("{from} or {to} did not take part"),
@@ -246,6 +252,12 @@ fn eyes<'s>(
         Some(seen_by) => it.id == seen_by,
         None => it.on && it.id.team == robot.team && it.id != robot,
     })
+}
+
+/// The robots of a team that have given their locks, and whom.
+fn locked(scene: &Scene, team: Team) -> impl Iterator<Item = (RobotId, u8)> {
+    let team = scene.robots.iter().filter(move |it| it.id.team == team);
+    team.filter_map(|it| Some((it.id, it.locked_by?)))
 }
 
 fn distance(scene: &Scene, from: Thing, to: Thing) -> Option<f32> {

@@ -107,6 +107,7 @@ impl Display for Condition {
             }
             Condition::Locked { robot, by: None } => write!(f, "{robot} is locked"),
             Condition::Locked { robot, by: Some(by) } => write!(f, "{robot} is locked by {by}"),
+            Condition::Unlocked(team) => write!(f, "no robot of {team} is locked"),
             Condition::Distance { from, to, below, above } => {
                 let limits = limits("more than", *above, "less than", *below, " m");
                 write!(f, "{from} is {limits} from {to}")
@@ -242,6 +243,7 @@ mod tests {
                 r#"Eventually(what: Claims("home 1"), within: 5, after: 2.5)"#,
                 "between 2.5 s and 7.5 s: home 1 claims the ball",
             ),
+            ("Always(what: Unlocked(Home))", "always: no robot of home is locked"),
             (r#"Never(what: Locked(robot: "home 1"), until: 4)"#, "never until 4 s: home 1 is locked"),
             (
                 r#"Always(what: RolesDistinct(Home), from: 2, because: "the paper says so")"#,

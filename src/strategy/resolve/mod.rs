@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
 
-use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile};
+use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile, stretched};
 use super::language::Feature;
 use super::{
     Assemblage, Combination, HomebaseRule, Machine, Part, Play, RoleSpec, State, Strategy, SubRole, Term,
@@ -18,6 +18,7 @@ use super::{
 };
 use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
 use crate::geometry::Zone;
+pub(super) use teamwork::Roles;
 
 type Result<T> = std::result::Result<T, DataError>;
 
@@ -25,7 +26,8 @@ type Result<T> = std::result::Result<T, DataError>;
 pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>) -> Result<Strategy> {
     let root = Field::root();
     let scale = pitch.zip(file.pitch).map_or(Vec2::ONE, |(played, drawn)| played / drawn);
-    let mut resolver = Resolver { file, source, scale, slots: 0, open: Vec::new(), depth: 0, work: 0 };
+    let roles = Roles { names: file.roles.keys().map(String::as_str).collect(), source };
+    let mut resolver = Resolver { file, source, roles, scale, slots: 0, open: Vec::new(), depth: 0, work: 0 };
     resolver.check_sizes()?;
     source.distinct(&root.key("robot_kinds"), &file.robot_kinds)?;
     resolver.check_named_pieces()?;
@@ -40,6 +42,10 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
         .collect::<Result<Vec<_>>>()?;
     let players = resolver.players(&root.key("players"))?;
     resolver.kick_off(players.len())?;
+    for (name, places) in &file.line_ups {
+        resolver.places(places, players.len(), &root.key("line_ups").key(name))?;
+    }
+    let line_ups = file.line_ups.iter().map(|(name, places)| (name.clone(), stretched(places, scale)));
     Ok(Strategy {
         name: file.name.clone(),
         description: file.description.clone(),
@@ -48,9 +54,10 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
         roles,
         players,
         kick_off: file.kick_off.scaled(scale),
+        line_ups: line_ups.collect(),
         machines,
         assemblages,
-        teamwork: resolver.teamwork(&root.key("teamwork"))?,
+        teamwork: resolver.roles.teamwork(&file.teamwork, &root.key("teamwork"))?,
         slots: resolver.slots,
     })
 }
@@ -58,6 +65,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
 struct Resolver<'a> {
     file: &'a StrategyFile,
     source: &'a Source,
+    roles: Roles<'a>,
     /// From positions in the file to those on the pitch that is played on.
     scale: Vec2,
     slots: usize,
@@ -130,6 +138,7 @@ impl Resolver<'_> {
             self.source.vector_within(&root.key("pitch"), drawn, Bound::PITCH)?;
         }
         let sections = [
+            ("line_ups", file.line_ups.len(), MOST_PIECES),
             ("zones", file.zones.len(), MOST_PIECES),
             ("percepts", file.percepts.len(), MOST_PIECES),
             ("point_sets", file.point_sets.len(), MOST_PIECES),
@@ -326,17 +335,20 @@ impl Resolver<'_> {
     fn kick_off(&self, players: usize) -> Result<()> {
         for (side, places) in [("ours", &self.file.kick_off.ours), ("theirs", &self.file.kick_off.theirs)] {
             let at = Field::root().key("kick_off").key(side);
-            if places.len() != players {
-                return self.fault(&at, format!("{} places for {players} players", places.len()));
-            }
-            for (i, place) in places.iter().enumerate() {
-                self.place(*place, &at.index(i))?;
-                if place.x > 0.0 {
-                    return self.fault(&at.index(i), "must lie in the team's own half: x of 0 at most");
-                }
+            self.places(places, players, &at)?;
+            if let Some(i) = places.iter().position(|place| place.x > 0.0) {
+                return self.fault(&at.index(i), "must lie in the team's own half: x of 0 at most");
             }
         }
         Ok(())
+    }
+
+    /// Places for all players.
+    fn places(&self, places: &[Vec2], players: usize, at: &Field) -> Result<()> {
+        if places.len() != players {
+            return self.fault(at, format!("{} places for {players} players", places.len()));
+        }
+        places.iter().enumerate().try_for_each(|(i, place)| self.place(*place, &at.index(i)))
     }
 }
 

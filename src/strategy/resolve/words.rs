@@ -119,7 +119,7 @@ impl Resolver<'_> {
     }
 
     pub(super) fn role_ref(&self, role: &mut RoleRef, at: &Field) -> Result<()> {
-        role.index = self.role_index(&role.name, at)?;
+        role.index = self.roles.index(&role.name, at)?;
         Ok(())
     }
 

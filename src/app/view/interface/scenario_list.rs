@@ -11,7 +11,7 @@ use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::style;
 use crate::app::view::style::SMALL;
 use crate::data::{AssetFolder, AssetKind, Source};
-use crate::lab::scenario::ScenarioFile;
+use crate::lab::scenario::{ScenarioFile, ScenarioRef};
 
 /// The list, and what is chosen of it.
 #[derive(Resource, Clone, Debug, Default)]
@@ -23,7 +23,7 @@ pub struct ScenarioList {
 
 #[derive(Clone, Debug, PartialEq)]
 struct ScenarioEntry {
-    path: PathBuf,
+    scenario: ScenarioRef,
     /// Name and source, or what is wrong with the file.
     found: Result<[String; 2], String>,
 }
@@ -31,11 +31,12 @@ struct ScenarioEntry {
 impl ScenarioList {
     /// Reads what there is to choose from.
     pub fn refresh(&mut self, assets: &AssetFolder) {
-        let chosen = self.chosen.and_then(|index| self.entries.get(index)).map(|entry| entry.path.clone());
+        let chosen =
+            self.chosen.and_then(|index| self.entries.get(index)).map(|entry| entry.scenario.clone());
         let paths =
             assets.names(AssetKind::Scenario).into_iter().map(|name| assets.file(AssetKind::Scenario, &name));
-        self.entries = paths.map(ScenarioEntry::read).collect();
-        let place = |entry: &ScenarioEntry| Some(&entry.path) == chosen.as_ref();
+        self.entries = paths.flat_map(ScenarioEntry::read).collect();
+        let place = |entry: &ScenarioEntry| Some(&entry.scenario) == chosen.as_ref();
         self.chosen = self.entries.iter().position(place).or(Some(0).filter(|_| !self.entries.is_empty()));
     }
 
@@ -61,15 +62,25 @@ impl ScenarioList {
         let button = |ui: &mut egui::Ui| style::big_button(ui, "Play").clicked();
         asked |= ui.with_layout(foot, button).inner;
         let entry = self.chosen.and_then(|index| self.entries.get(index)).filter(|_| asked)?;
-        Some(MatchRequest::Scenario { path: entry.path.clone(), seed: None })
+        Some(MatchRequest::Scenario { scenario: entry.scenario.clone(), seed: None })
     }
 }
 
 impl ScenarioEntry {
-    fn read(path: PathBuf) -> ScenarioEntry {
-        let file = Source::read(&path).and_then(|source| source.parse::<ScenarioFile>());
-        let found = file.map(|file| [file.name, file.source]).map_err(|error| error.to_string());
-        ScenarioEntry { path, found }
+    /// An entry for each variant in a file.
+    fn read(path: PathBuf) -> Vec<ScenarioEntry> {
+        let file = match Source::read(&path).and_then(|source| source.parse::<ScenarioFile>()) {
+            Ok(file) => file,
+            Err(error) => {
+                return vec![ScenarioEntry { scenario: path.into(), found: Err(error.to_string()) }];
+            }
+        };
+        let scenarios = file.scenarios().into_iter().map(|(variant, file)| {
+            let scenario = ScenarioRef { path: path.clone(), variant: variant.map(str::to_owned) };
+            let found = [file.name, file.source].map(Option::unwrap_or_default);
+            ScenarioEntry { scenario, found: Ok(found) }
+        });
+        scenarios.collect()
     }
 }
 
@@ -114,7 +125,7 @@ mod tests {
     fn the_list_has_every_scenario_with_its_name_and_source() {
         let mut list = ScenarioList::default();
         list.refresh(&AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets")));
-        let figure_8 = list.entries.iter().find(|entry| entry.path.ends_with("swap_figure_8.ron"));
+        let figure_8 = list.entries.iter().find(|entry| entry.scenario.path.ends_with("swap_figure_8.ron"));
         let [name, source] = figure_8.unwrap().found.clone().unwrap();
         assert!(!name.is_empty() && source.contains("figure 8"), "{name} {source}");
         assert_eq!(list.chosen, Some(0));

@@ -109,14 +109,14 @@ fn tell_whoever_started_us(expectations: Res<Expectations>, mut exits: ResMut<Me
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{AssetFolder, AssetKind};
+    use crate::data::AssetFolder;
     use crate::game::Match;
-    use crate::lab::scenario::{Condition, Expectation, ScenarioPlan, Thing};
+    use crate::lab::scenario::{Condition, Expectation, ScenarioPlan, ScenarioRef, Thing};
 
     #[test]
     fn the_window_judges_as_the_headless_runner_and_leaves_the_match_alone() {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
-        let plan = ScenarioPlan::read(&assets, &assets.file(AssetKind::Scenario, "swap_figure_8")).unwrap();
+        let plan = ScenarioPlan::read(&assets, &ScenarioRef::named(&assets, "swap_figure_8")).unwrap();
         let (mut seen, mut unseen) = (Match::new(&plan.with_seed(1)), Match::new(&plan.with_seed(1)));
         let dt = seen.clock().dt;
         let mut expectations = Expectations::of(Some(&plan.scenario), dt);
@@ -136,8 +136,7 @@ mod tests {
     #[test]
     fn a_window_that_is_closed_on_a_failed_scenario_says_so_when_it_ends() {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
-        let mut plan =
-            ScenarioPlan::read(&assets, &assets.file(AssetKind::Scenario, "swap_figure_8")).unwrap();
+        let mut plan = ScenarioPlan::read(&assets, &ScenarioRef::named(&assets, "swap_figure_8")).unwrap();
         let never = Condition::Distance { from: Thing::Ball, to: Thing::Ball, below: None, above: Some(1.0) };
         for (what, expected) in
             [(never.clone(), AppExit::from_code(FAILED)), (Condition::Not(Box::new(never)), AppExit::Success)]

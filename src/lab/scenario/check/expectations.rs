@@ -81,7 +81,9 @@ impl Checker<'_> {
             Condition::Sent(packets) => self.packets(packets, &at.key("Sent")),
             Condition::Delivered(packets) => self.packets(packets, &at.key("Delivered")),
             Condition::Goals { at_least, at_most, .. } => self.counts(*at_least, *at_most, &at.key("Goals")),
-            Condition::RolesDistinct(team) | Condition::ConfigurationsAgree(team) => {
+            Condition::RolesDistinct(team)
+            | Condition::ConfigurationsAgree(team)
+            | Condition::Unlocked(team) => {
                 if self.robots.iter().any(|robot| robot.team == *team) {
                     return Ok(());
                 }

@@ -6,6 +6,8 @@ mod places;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::Vec2;
 
 use super::condition::Expectation;
@@ -19,6 +21,7 @@ use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::rng::LARGEST_SEED;
 use crate::robot::RobotKind;
+use places::Standing;
 
 type Result<T> = std::result::Result<T, DataError>;
 
@@ -29,16 +32,14 @@ pub struct Scenario {
     pub source: String,
     pub description: String,
     /// The file's name.
-    pub game: String,
-    /// The file's name.
     pub radio: String,
     pub seeds: Vec<u64>,
     /// With how many of the seeds it may fail, at each place of the ball.
     pub may_fail: usize,
     pub seconds: f32,
     pub referee: Referee,
-    /// Home first.
-    pub sides: [Option<Side>; 2],
+    /// The robots that take part in the order of their numbers, home first.
+    pub sides: [Option<Vec<Player>>; 2],
     /// Where the ball starts, in the pitch frame: one run for each, with each seed.
     pub places: Vec<Vec2>,
     /// Of the ball at the start, m/s in the pitch frame.
@@ -63,18 +64,8 @@ impl Scenario {
 
     /// All robots that take part, in order.
     pub fn players(&self) -> impl Iterator<Item = &Player> {
-        self.sides.iter().flatten().flat_map(|side| &side.players)
+        self.sides.iter().flatten().flatten()
     }
-}
-
-/// One side: names of files, and the robots that take part.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Side {
-    pub strategy: String,
-    pub robot: String,
-    pub sensing: String,
-    /// In the order of their numbers.
-    pub players: Vec<Player>,
 }
 
 /// A robot that takes part.
@@ -103,8 +94,9 @@ pub struct Known<'a> {
 /// What a strategy holds.
 #[derive(Clone, Debug, Default)]
 pub struct KnownTeam<'a> {
-    /// How many robots it is for.
-    pub players: usize,
+    /// Where each of its robots stands at its own kick-off.
+    pub kick_off: &'a [Vec2],
+    pub line_ups: BTreeMap<&'a str, &'a [Vec2]>,
     /// `None` for a side that does not play.
     pub kind: Option<&'a RobotKind>,
     pub roles: Vec<&'a str>,
@@ -117,29 +109,34 @@ pub struct KnownTeam<'a> {
 /// # Errors
 /// The first fault, with its line and field.
 pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scenario> {
-    let mut checker = Checker { source, known, seconds: file.seconds, robots: Vec::new() };
     let root = Field::root();
-    if file.name.trim().is_empty() {
+    let name = source.required(&file.name, &root, "name")?;
+    let seconds = source.required(&file.seconds, &root, "seconds")?;
+    let ball = source.required(&file.ball, &root, "ball")?;
+    let mut checker = Checker { source, known, seconds, robots: Vec::new(), standing: Vec::new() };
+    if name.trim().is_empty() {
         return checker.fault(&root.key("name"), "must say what the scenario shows");
     }
-    source.within(&root.key("seconds"), file.seconds, Bound::SECONDS.positive())?;
-    let seeds = checker.seeds(file.seeds.to_vec(), &root.key("seeds"))?;
-    let may_fail = usize::from(file.may_fail);
+    source.within(&root.key("seconds"), seconds, Bound::SECONDS.positive())?;
+    let seeds = checker.seeds(file.seeds.clone().unwrap_or_default().to_vec(), &root.key("seeds"))?;
+    let may_fail = usize::from(file.may_fail.unwrap_or_default());
     if may_fail >= seeds.len() {
         let message = format!("must be less than the number of seeds, {}", seeds.len());
         return checker.fault(&root.key("may_fail"), message);
     }
-    if !known.radios.contains(&file.radio) {
-        return checker.fault(&root.key("radio"), no_such("radio", &file.radio, &known.radios));
+    let radio = file.radio.clone().unwrap_or_else(|| "perfect".into());
+    if !known.radios.contains(&radio) {
+        return checker.fault(&root.key("radio"), no_such("radio", &radio, &known.radios));
     }
-    let home = checker.side(Team::Home, &file.home, &root.key("home"))?;
+    let home = source.required(&file.home, &root, "home")?;
+    let home = checker.side(Team::Home, &home, &root.key("home"))?;
     let away = match &file.away {
         Some(away) => Some(checker.side(Team::Away, away, &root.key("away"))?),
         None => None,
     };
-    let places = checker.places(&file.ball.at, &root.key("ball").key("at"))?;
-    source.vector_within(&root.key("ball").key("velocity"), file.ball.velocity, Bound::VELOCITY)?;
-    checker.stand_apart(file, &places)?;
+    let places = checker.places(&ball.at, &root.key("ball").key("at"))?;
+    source.vector_within(&root.key("ball").key("velocity"), ball.velocity, Bound::VELOCITY)?;
+    checker.stand_apart(&places)?;
     for (i, rule) in file.faults.iter().enumerate() {
         checker.rule(rule, &root.key("faults").index(i))?;
     }
@@ -155,18 +152,17 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scen
     let mut script = file.script.clone();
     script.sort_by(|a, b| a.at.total_cmp(&b.at));
     Ok(Scenario {
-        name: file.name.clone(),
-        source: file.source.clone(),
-        description: file.description.clone(),
-        game: file.game.clone(),
-        radio: file.radio.clone(),
+        name,
+        source: source.required(&file.source, &root, "source")?,
+        description: file.description.clone().unwrap_or_default(),
+        radio,
         seeds,
         may_fail,
-        seconds: file.seconds,
-        referee: file.referee,
+        seconds,
+        referee: file.referee.unwrap_or_default(),
         sides: [Some(home), away],
         places,
-        velocity: file.ball.velocity,
+        velocity: ball.velocity,
         faults: file.faults.clone(),
         script,
         expect: file.expect.clone(),
@@ -186,6 +182,7 @@ struct Checker<'a> {
     seconds: f32,
     /// Those that take part, as far as the file has been read.
     robots: Vec<RobotId>,
+    standing: Vec<Standing>,
 }
 
 impl Checker<'_> {
@@ -255,22 +252,44 @@ impl Checker<'_> {
         Ok(known)
     }
 
-    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Side> {
-        let at = at.key("players");
-        if side.players.is_empty() {
-            return self.fault(&at, "needs at least one robot");
-        }
-        let players = side.players.iter().enumerate();
-        let players = players.map(|(i, player)| self.player(team, player, &at.index(i)));
+    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Vec<Player>> {
+        let players = match &side.players {
+            Some(players) if players.is_empty() => {
+                return self.fault(&at.key("players"), "needs at least one robot");
+            }
+            Some(players) => {
+                let at = |i| at.key("players").index(i);
+                players.iter().enumerate().map(|(i, it)| (it.clone(), at(i), at(i).key("at"))).collect()
+            }
+            None => self.line_up(team, side, at)?,
+        };
+        let players = players.iter().map(|(player, at, place)| self.player(team, player, at, place));
         let mut players = players.collect::<Result<Vec<_>>>()?;
         players.sort_by_key(|player| player.id);
-        let SideFile { strategy, robot, sensing, .. } = side.clone();
-        Ok(Side { strategy, robot, sensing, players })
+        Ok(players)
     }
 
-    fn player(&mut self, team: Team, player: &PlayerFile, at: &Field) -> Result<Player> {
+    /// All players of a strategy at the places of one of its line-ups, and where the file says so.
+    fn line_up(&self, team: Team, side: &SideFile, at: &Field) -> Result<Vec<(PlayerFile, Field, Field)>> {
+        let known = &self.known.teams[team.index()];
+        let (places, at) = match &side.line_up {
+            None => (known.kick_off, at.clone()),
+            Some(name) => {
+                let at = at.key("line_up");
+                match known.line_ups.get(name.as_str()) {
+                    Some(places) => (*places, at),
+                    None => return self.fault(&at, no_such("line-up", name, known.line_ups.keys())),
+                }
+            }
+        };
+        let players = (0..).zip(places).map(|(number, place)| PlayerFile::at(number, *place));
+        Ok(players.map(|player| (player, at.clone(), at.clone())).collect())
+    }
+
+    /// A player that the file has at `at`, and its place at `place`.
+    fn player(&mut self, team: Team, player: &PlayerFile, at: &Field, place: &Field) -> Result<Player> {
         let id = RobotId::new(team, player.number);
-        let players = self.known.teams[team.index()].players;
+        let players = self.known.teams[team.index()].kick_off.len();
         if usize::from(player.number) >= players {
             let known = (0..players).map(|number| number.to_string());
             return self
@@ -279,13 +298,14 @@ impl Checker<'_> {
         if self.robots.contains(&id) {
             return self.fault(&at.key("number"), format!("{id} is given twice"));
         }
-        self.on_pitch(player.at, &at.key("at"))?;
+        self.on_pitch(player.at, place)?;
         self.source.within(&at.key("facing"), player.facing, Bound::HEADING)?;
         if let Some(role) = &player.role {
             self.role(team, role, &at.key("role"))?;
         }
         self.robots.push(id);
         let pose = Pose { position: player.at, heading: player.facing.to_radians() };
+        self.stands(id, pose, place);
         Ok(Player { id, pose, role: player.role.clone(), on: !player.off })
     }
 

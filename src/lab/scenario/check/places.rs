@@ -5,12 +5,11 @@ use bevy::prelude::Vec2;
 use super::{Checker, Result};
 use crate::data::Field;
 use crate::geometry::Pose;
-use crate::ids::{RobotId, Team};
-use crate::lab::scenario::file::ScenarioFile;
+use crate::ids::RobotId;
 use crate::world::physics::Footprint;
 
 /// A body, where it stands, and where the file says so.
-struct Standing {
+pub(super) struct Standing {
     name: String,
     footprint: Footprint,
     pose: Pose,
@@ -18,15 +17,20 @@ struct Standing {
 }
 
 impl Checker<'_> {
+    /// Adds a robot, which the file places at `at`.
+    pub(super) fn stands(&mut self, robot: RobotId, pose: Pose, at: &Field) {
+        let Some(kind) = self.known.teams[robot.team.index()].kind else { return };
+        let (name, footprint) = (robot.to_string(), Footprint::of_robot(kind));
+        self.standing.push(Standing { name, footprint, pose, field: at.clone() });
+    }
+
     /// Names, positions and headings are sound by now; the ball starts at any of these places.
-    pub(super) fn stand_apart(&self, file: &ScenarioFile, places: &[Vec2]) -> Result<()> {
+    pub(super) fn stand_apart(&self, places: &[Vec2]) -> Result<()> {
         let walls = Footprint::of_walls(self.known.pitch);
-        let mut standing: Vec<Standing> = Vec::new();
-        for robot in self.robots_of(file) {
-            self.finds_room(&robot, &standing, &walls)?;
-            standing.push(robot);
+        for (i, robot) in self.standing.iter().enumerate() {
+            self.finds_room(robot, &self.standing[..i], &walls)?;
         }
-        places.iter().try_for_each(|place| self.finds_room(&self.ball_at(*place), &standing, &walls))
+        places.iter().try_for_each(|place| self.finds_room(&self.ball_at(*place), &self.standing, &walls))
     }
 
     fn finds_room(&self, body: &Standing, others: &[Standing], walls: &Footprint) -> Result<()> {
@@ -42,23 +46,6 @@ impl Checker<'_> {
             at.x, at.y, other.name, there.x, there.y, other.field
         );
         self.fault(&body.field, message)
-    }
-
-    fn robots_of(&self, file: &ScenarioFile) -> Vec<Standing> {
-        let sides = [(Team::Home, Some(&file.home), "home"), (Team::Away, file.away.as_ref(), "away")];
-        let mut standing = Vec::new();
-        for (team, side, key) in sides {
-            let (Some(side), Some(kind)) = (side, self.known.teams[team.index()].kind) else { continue };
-            let footprint = Footprint::of_robot(kind);
-            let field = Field::root().key(key).key("players");
-            standing.extend(side.players.iter().enumerate().map(|(i, player)| Standing {
-                name: RobotId::new(team, player.number).to_string(),
-                footprint: footprint.clone(),
-                pose: Pose { position: player.at, heading: player.facing.to_radians() },
-                field: field.index(i).key("at"),
-            }));
-        }
-        standing
     }
 
     fn ball_at(&self, position: Vec2) -> Standing {

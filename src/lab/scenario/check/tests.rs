@@ -27,10 +27,10 @@ fn a_sound_scenario_is_brought_into_order() {
     let ids: Vec<String> = scenario.players().map(|player| player.id.to_string()).collect();
     assert_eq!(ids, ["home 1", "home 2", "home 3"]);
     let home = scenario.sides[Team::Home.index()].as_ref().unwrap();
-    assert_eq!(home.players[0].role.as_deref(), Some("halfback"));
-    assert_eq!(home.players[1].pose.position, Vec2::new(-1.2, -1.0));
-    assert!((home.players[1].pose.heading - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
-    assert!(home.players[1].on && !home.players[2].on);
+    assert_eq!(home[0].role.as_deref(), Some("halfback"));
+    assert_eq!(home[1].pose.position, Vec2::new(-1.2, -1.0));
+    assert!((home[1].pose.heading - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+    assert!(home[1].on && !home[2].on);
     assert_eq!(scenario.sides[Team::Away.index()], None);
     let times: Vec<f32> = scenario.script.iter().map(|event| event.at).collect();
     assert_eq!(times, [1.0, 3.0]);
@@ -220,6 +220,7 @@ fn conditions_that_mean_nothing_are_faults() {
         ("Goals(team: Home)", "Goals: needs `at_least` or `at_most`"),
         ("Goals(team: Home, at_least: 2, at_most: 1)", "Goals.at_most: 1 is less than"),
         ("RolesDistinct(Away)", "away does not take part"),
+        ("Unlocked(Away)", "away does not take part"),
         ("RolesAre(Home, {})", "RolesAre[1]: needs at least one robot"),
         (r#"RolesAre(Home, {0: "goalie"})"#, "RolesAre[1].0: there is no robot `home 0`"),
         ("All([])", "All: needs at least one condition"),

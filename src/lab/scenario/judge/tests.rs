@@ -205,6 +205,13 @@ fn every_condition_can_hold_and_fail_and_says_what_was_seen() {
             "home 1 was locked by home 3",
         ),
         (
+            "Unlocked(Home)",
+            |it| it.robots[1].locked_by = Some(3),
+            "home 1 was locked by home 3",
+            |_| {},
+            "no robot was locked",
+        ),
+        (
             r#"Holder(robot: "home 1", seen_by: "home 2")"#,
             |it| it.robots[2].holder = Some(3),
             "home 2 took home 3 for the holder",

@@ -27,7 +27,8 @@ fn run(place: Vec2, seed: u64, failures: Vec<Failure>) -> Run {
 }
 
 fn of(without: Option<Dependency>, may_fail: usize, runs: Vec<Run>) -> Report {
-    Report { file: "swap".into(), name: "A <swap> works".into(), without, may_fail, runs, interrupted: false }
+    let (file, name) = ("swap".into(), "A <swap> works".into());
+    Report { file, variant: None, name, without, may_fail, runs, interrupted: false }
 }
 
 /// Two places and three seeds each; fails with so many of them.
