@@ -1,12 +1,9 @@
 //! The bounds of the numbers that a file, an option or a hand brings in: wide enough for every real use, and such that a match
 //! computes safely with whatever lies within.
 
-use std::ops::RangeInclusive;
-
 use bevy::math::Vec2;
 
-/// A field's path, and what is wrong with its value. A step of the path that is a number is a place in a list.
-pub type Fault = (String, String);
+use super::fault::Fault;
 
 /// The least and the greatest value that a number may have, and its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,8 +91,11 @@ impl Bound {
         (self.least..=self.most).contains(&value)
     }
 
-    /// What is wrong with a value, in words.
-    pub fn fault(self, value: f32) -> Option<String> {
+    /// Checks the value of a field, as in `loss.to_bad` or `reach.0`.
+    ///
+    /// # Errors
+    /// If it is out of the bound.
+    pub fn check(self, field: &str, value: f32) -> Result<(), Fault> {
         let Bound { least, most, unit } = self;
         let rule = if value > most {
             format!("at most {}{unit}", written(most))
@@ -104,9 +104,20 @@ impl Bound {
         } else if value.is_nan() {
             "a number".to_owned()
         } else {
-            return None;
+            return Ok(());
         };
-        Some(format!("must be {rule}, not {}", written(value)))
+        Err(Fault::new(field, format!("must be {rule}, not {}", written(value))))
+    }
+
+    /// Checks both coordinates of points in a list.
+    ///
+    /// # Errors
+    /// The first coordinate that is out of the bound.
+    pub fn check_points(self, field: &str, points: &[Vec2]) -> Result<(), Fault> {
+        points.iter().enumerate().try_for_each(|(index, point)| {
+            self.check(&format!("{field}.{index}.0"), point.x)?;
+            self.check(&format!("{field}.{index}.1"), point.y)
+        })
     }
 
     /// The value within the bound that is nearest; what is no number becomes the one nearest to 0.
@@ -126,28 +137,12 @@ fn written(value: f32) -> String {
     if plain { value.to_string() } else { format!("{value:e}") }
 }
 
+/// Checks numbers by their bounds.
+///
+/// # Errors
 /// The first number that is out of its bound.
-pub fn first_fault<N: Into<String>>(fields: impl IntoIterator<Item = (N, f32, Bound)>) -> Option<Fault> {
-    fields.into_iter().find_map(|(field, value, bound)| Some((field.into(), bound.fault(value)?)))
-}
-
-/// The first coordinate in a list of points that is out of a bound.
-pub fn points_fault(field: &str, points: &[Vec2], bound: Bound) -> Option<Fault> {
-    let coordinates = points.iter().enumerate().flat_map(|(index, point)| {
-        [(0, point.x), (1, point.y)].map(|(axis, value)| (format!("{field}.{index}.{axis}"), value, bound))
-    });
-    first_fault(coordinates)
-}
-
-/// What is wrong with a whole number, in words.
-pub fn count_fault(count: usize, within: RangeInclusive<usize>) -> Option<String> {
-    if count > *within.end() {
-        Some(format!("must be at most {}, not {count}", within.end()))
-    } else if count < *within.start() {
-        Some(format!("must be at least {}, not {count}", within.start()))
-    } else {
-        None
-    }
+pub fn check_all<'a>(fields: impl IntoIterator<Item = (&'a str, f32, Bound)>) -> Result<(), Fault> {
+    fields.into_iter().try_for_each(|(field, value, bound)| bound.check(field, value))
 }
 
 #[cfg(test)]
@@ -157,27 +152,27 @@ mod tests {
     #[test]
     fn the_side_of_a_bound_that_is_passed_is_named_with_its_unit() {
         let seconds = Bound::SECONDS;
-        assert_eq!(seconds.fault(0.0), None);
-        assert_eq!(seconds.fault(86_400.0), None);
-        assert_eq!(seconds.fault(1e30).unwrap(), "must be at most 86400 s, not 1e30");
-        assert_eq!(seconds.fault(f32::INFINITY).unwrap(), "must be at most 86400 s, not inf");
-        assert_eq!(seconds.fault(-1.5).unwrap(), "must be at least 0 s, not -1.5");
-        assert_eq!(seconds.fault(f32::NAN).unwrap(), "must be a number, not NaN");
-        assert_eq!(seconds.positive().fault(0.0).unwrap(), "must be at least 0.001 s, not 0");
-        assert_eq!(seconds.positive().fault(1e-30).unwrap(), "must be at least 0.001 s, not 1e-30");
-        assert_eq!(Bound::PLACE.fault(-1000.5).unwrap(), "must be at least -1000 m, not -1000.5");
-        assert_eq!(Bound::SHARE.fault(2.0).unwrap(), "must be at most 1, not 2");
+        let message = |bound: Bound, value| bound.check("at", value).unwrap_err().message;
+        assert_eq!(seconds.check("at", 0.0), Ok(()));
+        assert_eq!(seconds.check("at", 86_400.0), Ok(()));
+        assert_eq!(message(seconds, 1e30), "must be at most 86400 s, not 1e30");
+        assert_eq!(message(seconds, f32::INFINITY), "must be at most 86400 s, not inf");
+        assert_eq!(message(seconds, -1.5), "must be at least 0 s, not -1.5");
+        assert_eq!(message(seconds, f32::NAN), "must be a number, not NaN");
+        assert_eq!(message(seconds.positive(), 0.0), "must be at least 0.001 s, not 0");
+        assert_eq!(message(seconds.positive(), 1e-30), "must be at least 0.001 s, not 1e-30");
+        assert_eq!(message(Bound::PLACE, -1000.5), "must be at least -1000 m, not -1000.5");
+        assert_eq!(message(Bound::SHARE, 2.0), "must be at most 1, not 2");
     }
 
     #[test]
     fn the_first_number_out_of_its_bounds_is_named() {
         let fields = |a, b| [("a", a, Bound::SHARE), ("b", b, Bound::LENGTH.positive())];
-        assert_eq!(first_fault(fields(1.0, 2.0)), None);
-        assert_eq!(first_fault(fields(1.0, 0.0)).unwrap().0, "b");
-        assert_eq!(
-            first_fault(fields(-1.0, 0.0)).unwrap(),
-            ("a".into(), "must be at least 0, not -1".into())
-        );
+        assert_eq!(check_all(fields(1.0, 2.0)), Ok(()));
+        assert_eq!(check_all(fields(1.0, 0.0)).unwrap_err().field.to_string(), "b");
+        assert_eq!(check_all(fields(-1.0, 0.0)), Err(Fault::new("a", "must be at least 0, not -1")));
+        let fault = Bound::SHARE.check_points("spots", &[Vec2::ONE, Vec2::new(0.5, 2.0)]).unwrap_err();
+        assert_eq!(fault.field.to_string(), "spots[1][1]");
     }
 
     #[test]
@@ -188,12 +183,5 @@ mod tests {
             }
         }
         assert_eq!(Bound::VELOCITY.clamp_vector(Vec2::new(1.0, -1e9)), Vec2::new(1.0, -50.0));
-    }
-
-    #[test]
-    fn counts_have_bounds_too() {
-        assert_eq!(count_fault(1, 1..=9), None);
-        assert_eq!(count_fault(0, 1..=9).unwrap(), "must be at least 1, not 0");
-        assert_eq!(count_fault(10, 1..=9).unwrap(), "must be at most 9, not 10");
     }
 }

@@ -58,7 +58,7 @@ impl Field {
 
     /// The value that these steps lead to from here.
     #[must_use]
-    pub(super) fn inside(&self, steps: &[Segment]) -> Field {
+    pub fn inside(&self, steps: &[Segment]) -> Field {
         Field { segments: [&self.segments, steps].concat() }
     }
 

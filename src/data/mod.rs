@@ -6,6 +6,7 @@
 
 mod bounds;
 mod error;
+mod fault;
 mod field;
 mod field_names;
 mod folder;
@@ -16,8 +17,9 @@ mod source;
 mod twice;
 mod words;
 
-pub use bounds::{Bound, Fault, count_fault, first_fault, points_fault};
+pub use bounds::{Bound, check_all};
 pub use error::{DataError, in_one_line, no_such};
+pub use fault::{Fault, Validate, check_count, ensure};
 pub use field::{Field, Segment};
 pub use field_names::field_names;
 pub use folder::{AssetFolder, is_path};

@@ -15,6 +15,7 @@ use serde::de::DeserializeOwned;
 
 use super::bounds::Bound;
 use super::error::DataError;
+use super::fault::{Fault, Validate};
 use super::field::{Field, Segment};
 use super::folder::names_in;
 use super::locate::{find, line_and_column, locate, outermost};
@@ -181,13 +182,36 @@ impl Source {
         value.clone().ok_or_else(missing)
     }
 
+    /// What a check of the value at `at` came to, as an error that says where in the file the fault is.
+    ///
+    /// # Errors
+    ///
+    /// If there is a fault.
+    pub fn locate(&self, at: &Field, checked: Result<(), Fault>) -> Result<(), DataError> {
+        checked.map_err(|fault| {
+            let fault = fault.inside(at);
+            self.error_at(&fault.field, fault.message)
+        })
+    }
+
+    /// Parses the whole text as one value that is sound.
+    ///
+    /// # Errors
+    ///
+    /// As [`Source::parse`], or the first fault of the value.
+    pub fn parse_sound<T: DeserializeOwned + Validate>(&self) -> Result<T, DataError> {
+        let value: T = self.parse()?;
+        self.locate(&Field::root(), value.validate())?;
+        Ok(value)
+    }
+
     /// Checks a number of the parsed value.
     ///
     /// # Errors
     ///
     /// If it is out of its bound.
     pub fn within(&self, field: &Field, number: f32, bound: Bound) -> Result<(), DataError> {
-        bound.fault(number).map_or(Ok(()), |message| Err(self.error_at(field, message)))
+        self.locate(field, bound.check("", number))
     }
 
     /// Checks both coordinates of a vector of the parsed value.

@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 
 use crate::comms::tcm::Directory;
 use crate::comms::tcm::Peer;
-use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, TopLevel, no_such};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, TopLevel, Validate, no_such};
 
 /// Reads the table of addresses.
 pub(crate) fn read_addresses(path: &Path) -> Result<Directory, DataError> {
@@ -46,14 +46,6 @@ pub(crate) fn file_named(
 }
 
 /// Reads a file whose type checks its own numbers.
-pub(crate) fn checked<T: DeserializeOwned>(
-    path: &Path,
-    fault: impl Fn(&T) -> Option<Fault>,
-) -> Result<T, DataError> {
-    let source = Source::read(path)?;
-    let value: T = source.parse()?;
-    match fault(&value) {
-        Some((field, message)) => Err(source.error_at(&Field::root().dotted(&field), message)),
-        None => Ok(value),
-    }
+pub(crate) fn checked<T: DeserializeOwned + Validate>(path: &Path) -> Result<T, DataError> {
+    Source::read(path)?.parse_sound()
 }

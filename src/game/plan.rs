@@ -10,7 +10,7 @@ use super::situation::Situation;
 use super::team::{TeamFile, TeamPlan, give_roles, read_strategy};
 use crate::comms::radio::{FaultRule, Radio};
 use crate::comms::tcm::{Directory, HOST, TcmSettings};
-use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, no_such};
+use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, Validate, no_such};
 use crate::game::net::{NetworkPlan, team_numbers_fault};
 use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
@@ -41,6 +41,14 @@ pub struct MatchFile {
     pub home: TeamFile,
     /// The away team.
     pub away: TeamFile,
+}
+
+impl Validate for MatchFile {
+    fn validate(&self) -> Result<(), Fault> {
+        self.ball.validate_as("ball")?;
+        self.rules.validate_as("rules")?;
+        self.tcm.validate_as("tcm")
+    }
 }
 
 fn default_radio() -> String {
@@ -138,31 +146,23 @@ impl MatchPlan {
     /// As [`MatchPlan::read`].
     pub fn read_file(assets: &AssetFolder, path: &Path, choice: &Choice) -> Result<MatchPlan, DataError> {
         let source = Source::read(path)?;
-        let mut file: MatchFile = source.parse()?;
-        let ball_fault = file.ball.fault().map(|(field, message)| (format!("ball.{field}"), message));
-        let rules_fault = file.rules.fault().map(|(field, message)| (format!("rules.{field}"), message));
-        let tcm_fault = file.tcm.fault().map(|(field, message)| (format!("tcm.{field}"), message));
-        if let Some((field, message)) = ball_fault.or(rules_fault).or(tcm_fault) {
-            return Err(source.error_at(&Field::root().dotted(&field), message));
-        }
+        let mut file: MatchFile = source.parse_sound()?;
         if choice.network.league_ports.is_some() {
             file.tcm.datagram = file.tcm.datagram.min(choice.network.version.longest_message());
         }
         if let Some(minutes) = choice.half_minutes {
             file.rules.half_minutes = minutes;
-            if let Some((_, message)) = file.rules.fault() {
-                return Err(DataError::new("--minutes", message));
-            }
+            file.rules.validate().map_err(|fault| DataError::new("--minutes", fault.message))?;
         }
         let pitch = file_named(assets, &source, AssetKind::Pitch, ("pitch", &file.pitch))?;
-        let pitch = checked(&pitch, Pitch::fault)?;
+        let pitch = checked(&pitch)?;
         if choice.radio.is_none() {
             file_named(assets, &source, AssetKind::Radio, ("radio", &file.radio))?;
         }
         file.home.check(assets, &source, "home", choice.home.is_none())?;
         file.away.check(assets, &source, "away", choice.away.is_none())?;
         let radio = choice.radio.as_ref().unwrap_or(&file.radio);
-        let radio = checked(&assets.file(AssetKind::Radio, radio), Radio::fault)?;
+        let radio = checked(&assets.file(AssetKind::Radio, radio))?;
         for (team, chosen) in [(&mut file.home, &choice.home), (&mut file.away, &choice.away)] {
             if let Some(strategy) = chosen {
                 // What a match changes of its own strategy's teamwork means nothing for another.

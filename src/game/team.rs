@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::files::{checked, file_named};
 use super::line_up::LineUp;
-use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, Validate};
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::teamwork::TeamworkFile;
@@ -78,7 +78,7 @@ impl TeamPlan {
         (source, side): (&Source, &str),
         (pitch, ball): (&Pitch, &BallKind),
     ) -> Result<TeamPlan, DataError> {
-        let kind: RobotKind = checked(&assets.file(AssetKind::Robot, &names.robot), RobotKind::fault)?;
+        let kind: RobotKind = checked(&assets.file(AssetKind::Robot, &names.robot))?;
         let at = Field::root().key(side).key("teamwork");
         let change = TeamworkChange { teamwork: names.teamwork.clone(), source: source.clone(), at };
         let reading = read_strategy(assets, names, &change, &kind, (pitch, ball));
@@ -87,7 +87,7 @@ impl TeamPlan {
             strategy_files: reading.files,
             teamwork_change: change,
             kind: Arc::new(kind),
-            sensing: Arc::new(checked(&assets.file(AssetKind::Sensing, &names.sensing), Sensing::fault)?),
+            sensing: Arc::new(checked(&assets.file(AssetKind::Sensing, &names.sensing))?),
             names: names.clone(),
             roles: Vec::new(),
         })
@@ -132,13 +132,13 @@ pub(super) fn read_strategy(
 /// The first fault, with its place.
 pub(crate) fn read_strategy_alone(assets: &AssetFolder, path: &Path) -> Result<Strategy, DataError> {
     let strategy = Strategy::read(assets, path, None).strategy?;
-    let pitches = sound::<Pitch>(assets, AssetKind::Pitch, assets.names(AssetKind::Pitch), Pitch::fault);
+    let pitches = sound::<Pitch>(assets, AssetKind::Pitch, assets.names(AssetKind::Pitch));
     let missed = |pitch: &Pitch| {
         let size = 2.0 * pitch.half_size();
         strategy.pitch.map_or(-size.length(), |drawn| drawn.distance(size))
     };
     let Some(pitch) = pitches.min_by(|a, b| missed(a).total_cmp(&missed(b))) else { return Ok(strategy) };
-    let kinds = sound(assets, AssetKind::Robot, strategy.robot_kinds, RobotKind::fault);
+    let kinds = sound::<RobotKind>(assets, AssetKind::Robot, strategy.robot_kinds);
     let reading = Strategy::read(assets, path, Some(&pitch));
     let checked = kinds.fold(reading, |reading, kind| {
         reading.require(|strategy| lines_up(strategy, &LineUp::new(&kind, None, &pitch)))
@@ -147,13 +147,12 @@ pub(crate) fn read_strategy_alone(assets: &AssetFolder, path: &Path) -> Result<S
 }
 
 /// Those of some assets that are there and sound; what is wrong with another one is not this file's fault.
-fn sound<T: DeserializeOwned>(
+fn sound<T: DeserializeOwned + Validate>(
     assets: &AssetFolder,
     kind: AssetKind,
     names: Vec<String>,
-    fault: fn(&T) -> Option<Fault>,
 ) -> impl Iterator<Item = T> {
-    names.into_iter().filter_map(move |name| checked(&assets.file(kind, &name), fault).ok())
+    names.into_iter().filter_map(move |name| checked(&assets.file(kind, &name)).ok())
 }
 
 fn lines_up(strategy: &Strategy, line_up: &LineUp) -> Result<(), (Field, String)> {

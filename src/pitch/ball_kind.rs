@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 
 /// A ball as data; part of a match file.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,10 +27,9 @@ pub struct BallKind {
     pub wander: f32,
 }
 
-impl BallKind {
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
-        first_fault([
+impl Validate for BallKind {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("radius", self.radius, Bound::SIZE.positive()),
             ("mass", self.mass, Bound::MASS.positive()),
             ("rolling", self.rolling, Bound::ACCELERATION.positive()),

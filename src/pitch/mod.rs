@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 pub use ball_kind::BallKind;
 
-use crate::data::{Bound, Fault, count_fault, first_fault, points_fault};
+use crate::data::{Bound, Fault, Validate, check_all, check_count, ensure};
 use crate::geometry::Zone;
 
 /// A pitch, read from `assets/pitches/*.ron`.
@@ -102,10 +102,11 @@ impl Pitch {
             point.x.abs() <= half.x + self.goal.depth && point.y.abs() <= self.goal.width / 2.0 + room;
         inside || in_goal
     }
+}
 
-    /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound pitch.
-    pub fn fault(&self) -> Option<Fault> {
-        let numbers = first_fault([
+impl Validate for Pitch {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("length", self.length, Bound::PITCH),
             ("width", self.width, Bound::PITCH),
             ("goal.width", self.goal.width, Bound::LENGTH.positive()),
@@ -117,43 +118,26 @@ impl Pitch {
             ("walls.friction", self.walls.friction, Bound::COEFFICIENT),
             ("walls.restitution", self.walls.restitution, Bound::SHARE),
             ("walls.margin", self.walls.margin, Bound::LENGTH),
-        ]);
-        numbers.or_else(|| self.misfit()).or_else(|| self.spots_fault())
-    }
-
-    /// What does not fit into what.
-    fn misfit(&self) -> Option<Fault> {
-        let fits = |field: &str, own: f32, room: f32| {
-            (own >= room).then(|| (field.to_owned(), format!("{own} m does not fit into {room} m")))
-        };
-        let goals_end = self.goal.depth + self.walls.thickness;
-        let margin = self.walls.margin;
-        let is_narrow = margin != 0.0 && margin <= goals_end;
-        fits("goal.width", self.goal.width, self.width)
-            .or_else(|| fits("penalty_area.width", self.penalty_area.width, self.width))
-            .or_else(|| fits("penalty_area.depth", self.penalty_area.depth, self.length / 2.0))
-            .or_else(|| {
-                fits("centre_circle_radius", self.centre_circle_radius, self.half_size().min_element())
-            })
-            .or_else(|| {
-                is_narrow.then(|| {
-                    let need = format!("must be 0, or more than goals and their walls need, {goals_end} m");
-                    ("walls.margin".into(), format!("{need}, not {margin}"))
-                })
-            })
-    }
-
-    fn spots_fault(&self) -> Option<Fault> {
-        let spots = "penalty_spots";
-        if let Some(message) = count_fault(self.penalty_spots.len(), 1..=MOST_SPOTS) {
-            return Some((spots.into(), format!("the number of spots {message}")));
+        ])?;
+        for (field, own, room) in [
+            ("goal.width", self.goal.width, self.width),
+            ("penalty_area.width", self.penalty_area.width, self.width),
+            ("penalty_area.depth", self.penalty_area.depth, self.length / 2.0),
+            ("centre_circle_radius", self.centre_circle_radius, self.half_size().min_element()),
+        ] {
+            ensure(own < room, field, || format!("{own} m does not fit into {room} m"))?;
         }
-        if let Some(fault) = points_fault(spots, &self.penalty_spots, Bound::PLACE) {
-            return Some(fault);
-        }
-        let is_outside = |spot: &Vec2| !spot.abs().cmplt(self.half_size()).all();
-        let (number, spot) = self.penalty_spots.iter().enumerate().find(|(_, spot)| is_outside(spot))?;
-        Some((format!("{spots}.{number}"), format!("({}, {}) is outside the pitch", spot.x, spot.y)))
+        let (goals_end, margin) = (self.goal.depth + self.walls.thickness, self.walls.margin);
+        ensure(margin == 0.0 || margin > goals_end, "walls.margin", || {
+            format!("must be 0, or more than goals and their walls need, {goals_end} m, not {margin}")
+        })?;
+        check_count("penalty_spots", "the number of spots", self.penalty_spots.len(), 1..=MOST_SPOTS)?;
+        Bound::PLACE.check_points("penalty_spots", &self.penalty_spots)?;
+        self.penalty_spots.iter().enumerate().try_for_each(|(number, spot)| {
+            let is_inside = spot.abs().cmplt(self.half_size()).all();
+            let message = || format!("({}, {}) is outside the pitch", spot.x, spot.y);
+            ensure(is_inside, &format!("penalty_spots.{number}"), message)
+        })
     }
 }
 
@@ -181,10 +165,11 @@ mod tests {
 
     #[test]
     fn a_margin_has_room_for_the_goals() {
-        assert_eq!(pitch(WALLS).fault(), None);
-        assert_eq!(pitch(Walls { margin: 1.0, ..WALLS }).fault(), None);
+        assert_eq!(pitch(WALLS).validate(), Ok(()));
+        assert_eq!(pitch(Walls { margin: 1.0, ..WALLS }).validate(), Ok(()));
         for margin in [-1.0, 0.3, 0.35, f32::NAN, f32::INFINITY] {
-            assert_eq!(pitch(Walls { margin, ..WALLS }).fault().unwrap().0, "walls.margin", "{margin}");
+            let fault = pitch(Walls { margin, ..WALLS }).validate().unwrap_err();
+            assert_eq!(fault.field.to_string(), "walls.margin", "{margin}");
         }
     }
 

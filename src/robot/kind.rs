@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::legs::{Chin, Kick, Neck, Walker};
-use crate::data::{Bound, Fault, count_fault, first_fault, points_fault};
+use crate::data::{Bound, Fault, Field, Validate, check_all, check_count, ensure};
 
 /// One kind of robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -129,35 +129,30 @@ pub struct Scoop {
     pub hold_half_width: f32,
 }
 
-impl RobotKind {
-    /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound robot.
-    pub fn fault(&self) -> Option<Fault> {
-        let parts = [
-            self.body_fault(),
-            match &self.drive {
-                Drive::Differential(drive) => drive.fault(),
-                Drive::Walker(walker) => walker.fault(),
-            },
-            self.trailer.as_ref().and_then(TrailerKind::fault),
-            self.scoop.as_ref().and_then(Scoop::fault),
-            self.neck.as_ref().and_then(Neck::fault),
-            self.chin.as_ref().and_then(Chin::fault),
-        ];
-        let kicks = self.kicks.iter().filter_map(|(name, kick)| kick.fault(name));
-        parts.into_iter().flatten().chain(kicks).next()
-    }
-
-    fn body_fault(&self) -> Option<Fault> {
-        first_fault([
+impl Validate for RobotKind {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("control_hz", self.control_hz, Bound::RATE.positive()),
             ("body.length", self.body.length, Bound::SIZE.positive()),
             ("body.width", self.body.width, Bound::SIZE.positive()),
             ("body.mass", self.body.mass, Bound::MASS.positive()),
             ("body.friction", self.body.friction, Bound::COEFFICIENT),
             ("body.restitution", self.body.restitution, Bound::SHARE),
-        ])
+        ])?;
+        match &self.drive {
+            Drive::Differential(drive) => drive.validate_as("drive")?,
+            Drive::Walker(walker) => walker.validate_as("drive")?,
+        }
+        self.trailer.validate_as("trailer")?;
+        self.scoop.validate_as("scoop")?;
+        self.neck.validate_as("neck")?;
+        self.chin.validate_as("chin")?;
+        let kicks = || self.kicks.iter().try_for_each(|(name, kick)| kick.validate_as(name));
+        kicks().map_err(|fault| fault.inside(&Field::root().key("kicks")))
     }
+}
 
+impl RobotKind {
     /// The radius of a circle around the drive unit that holds body and jaws, m.
     pub fn reach(&self) -> f32 {
         let front = self.body.length / 2.0 + self.scoop.map_or(0.0, |scoop| scoop.depth);
@@ -181,47 +176,39 @@ impl RobotKind {
     }
 }
 
-impl DifferentialDrive {
-    fn fault(&self) -> Option<Fault> {
-        first_fault([
-            ("drive.track", self.track, Bound::SIZE.positive()),
-            ("drive.max_speed", self.max_speed, Bound::SPEED.positive()),
-            ("drive.acceleration", self.acceleration, Bound::ACCELERATION.positive()),
-            ("drive.wheel_force", self.wheel_force, Bound::FORCE.positive()),
-            ("drive.grip", self.grip, Bound::COEFFICIENT.positive()),
-            ("drive.turn_gain", self.turn_gain, Bound::GAIN.positive()),
-            ("drive.turn_rate", self.turn_rate, Bound::TURN_RATE.positive()),
-            ("drive.dead_band", self.dead_band, Bound::ANGLE),
+impl Validate for DifferentialDrive {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("track", self.track, Bound::SIZE.positive()),
+            ("max_speed", self.max_speed, Bound::SPEED.positive()),
+            ("acceleration", self.acceleration, Bound::ACCELERATION.positive()),
+            ("wheel_force", self.wheel_force, Bound::FORCE.positive()),
+            ("grip", self.grip, Bound::COEFFICIENT.positive()),
+            ("turn_gain", self.turn_gain, Bound::GAIN.positive()),
+            ("turn_rate", self.turn_rate, Bound::TURN_RATE.positive()),
+            ("dead_band", self.dead_band, Bound::ANGLE),
         ])
     }
 }
 
-impl TrailerKind {
-    fn fault(&self) -> Option<Fault> {
-        let numbers = first_fault([
-            ("trailer.mass", self.mass, Bound::MASS.positive()),
-            ("trailer.axle", self.axle, Bound::SIZE.positive()),
-            ("trailer.grip", self.grip, Bound::COEFFICIENT),
-            ("trailer.rolling", self.rolling, Bound::COEFFICIENT),
-            ("trailer.friction", self.friction, Bound::COEFFICIENT),
-            ("trailer.restitution", self.restitution, Bound::SHARE),
-        ]);
-        numbers.or_else(|| self.outline_fault())
-    }
-
-    fn outline_fault(&self) -> Option<Fault> {
-        let outline = "trailer.outline";
-        if let Some(message) = count_fault(self.outline.len(), 3..=MOST_CORNERS) {
-            return Some((outline.into(), format!("the number of corners {message}")));
-        }
-        points_fault(outline, &self.outline, Bound::CORNER).or_else(|| {
-            let spread = |from: Vec2| {
-                let ways = self.outline.iter().map(|corner| *corner - from);
-                ways.map(|way| way.perp_dot(self.outline[1] - from).abs()).fold(0.0, f32::max)
-            };
-            let is_flat = spread(self.outline[0]) < LEAST_AREA;
-            is_flat.then(|| (outline.into(), "its corners lie on one line, or nearly so".into()))
-        })
+impl Validate for TrailerKind {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("mass", self.mass, Bound::MASS.positive()),
+            ("axle", self.axle, Bound::SIZE.positive()),
+            ("grip", self.grip, Bound::COEFFICIENT),
+            ("rolling", self.rolling, Bound::COEFFICIENT),
+            ("friction", self.friction, Bound::COEFFICIENT),
+            ("restitution", self.restitution, Bound::SHARE),
+        ])?;
+        check_count("outline", "the number of corners", self.outline.len(), 3..=MOST_CORNERS)?;
+        Bound::CORNER.check_points("outline", &self.outline)?;
+        let spread = |from: Vec2| {
+            let ways = self.outline.iter().map(|corner| *corner - from);
+            ways.map(|way| way.perp_dot(self.outline[1] - from).abs()).fold(0.0, f32::max)
+        };
+        let is_flat = spread(self.outline[0]) < LEAST_AREA;
+        ensure(!is_flat, "outline", || "its corners lie on one line, or nearly so".into())
     }
 }
 
@@ -230,17 +217,17 @@ const MOST_CORNERS: usize = 64;
 /// What a trailer covers, m².
 const LEAST_AREA: f32 = 1e-4;
 
-impl Scoop {
-    fn fault(&self) -> Option<Fault> {
-        first_fault([
-            ("scoop.depth", self.depth, Bound::SIZE.positive()),
-            ("scoop.half_gap", self.half_gap, Bound::SIZE.positive()),
-            ("scoop.jaw", self.jaw, Bound::SIZE.positive()),
-            ("scoop.hold_force", self.hold_force, Bound::FORCE),
-            ("scoop.hold_stiffness", self.hold_stiffness, Bound::STIFFNESS),
-            ("scoop.hold_damping", self.hold_damping, Bound::DAMPING),
-            ("scoop.hold_reach", self.hold_reach, Bound::SIZE),
-            ("scoop.hold_half_width", self.hold_half_width, Bound::SIZE),
+impl Validate for Scoop {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("depth", self.depth, Bound::SIZE.positive()),
+            ("half_gap", self.half_gap, Bound::SIZE.positive()),
+            ("jaw", self.jaw, Bound::SIZE.positive()),
+            ("hold_force", self.hold_force, Bound::FORCE),
+            ("hold_stiffness", self.hold_stiffness, Bound::STIFFNESS),
+            ("hold_damping", self.hold_damping, Bound::DAMPING),
+            ("hold_reach", self.hold_reach, Bound::SIZE),
+            ("hold_half_width", self.hold_half_width, Bound::SIZE),
         ])
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all, ensure};
 
 /// An omnidirectional gait.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,64 +95,61 @@ pub struct Kick {
     pub from_hold: bool,
 }
 
-impl Walker {
-    pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([
-            ("drive.ahead", self.ahead, Bound::SPEED.positive()),
-            ("drive.back", self.back, Bound::SPEED.positive()),
-            ("drive.aside", self.aside, Bound::SPEED.positive()),
-            ("drive.turn", self.turn, Bound::TURN_RATE.positive()),
-            ("drive.acceleration", self.acceleration, Bound::ACCELERATION.positive()),
-            ("drive.turn_acceleration", self.turn_acceleration, Bound::TURN_ACCELERATION.positive()),
-            ("drive.push", self.push, Bound::FORCE.positive()),
-            ("drive.turn_gain", self.turn_gain, Bound::GAIN.positive()),
-            ("drive.noise.step", self.noise.step, Bound::SECONDS.positive()),
-            ("drive.noise.share", self.noise.share, Bound::COEFFICIENT),
-            ("drive.noise.drift", self.noise.drift, Bound::SPEED),
-            ("drive.noise.turn", self.noise.turn, Bound::TURN_RATE),
+impl Validate for Walker {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("ahead", self.ahead, Bound::SPEED.positive()),
+            ("back", self.back, Bound::SPEED.positive()),
+            ("aside", self.aside, Bound::SPEED.positive()),
+            ("turn", self.turn, Bound::TURN_RATE.positive()),
+            ("acceleration", self.acceleration, Bound::ACCELERATION.positive()),
+            ("turn_acceleration", self.turn_acceleration, Bound::TURN_ACCELERATION.positive()),
+            ("push", self.push, Bound::FORCE.positive()),
+            ("turn_gain", self.turn_gain, Bound::GAIN.positive()),
+            ("noise.step", self.noise.step, Bound::SECONDS.positive()),
+            ("noise.share", self.noise.share, Bound::COEFFICIENT),
+            ("noise.drift", self.noise.drift, Bound::SPEED),
+            ("noise.turn", self.noise.turn, Bound::TURN_RATE),
         ])
     }
 }
 
-impl Neck {
-    pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([
-            ("neck.pan", self.pan, Bound::ANGLE.positive()),
-            ("neck.speed", self.speed, Bound::TURN_RATE.positive()),
-            ("neck.scan", self.scan, Bound::TURN_RATE.positive()),
+impl Validate for Neck {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("pan", self.pan, Bound::ANGLE.positive()),
+            ("speed", self.speed, Bound::TURN_RATE.positive()),
+            ("scan", self.scan, Bound::TURN_RATE.positive()),
         ])
     }
 }
 
-impl Chin {
-    pub(super) fn fault(&self) -> Option<Fault> {
-        let numbers = first_fault([
-            ("chin.reach.0", self.reach.0, Bound::SIZE),
-            ("chin.reach.1", self.reach.1, Bound::SIZE),
-            ("chin.half_width", self.half_width, Bound::SIZE.positive()),
-            ("chin.speed", self.speed, Bound::SPEED.positive()),
-            ("chin.force", self.force, Bound::FORCE.positive()),
-            ("chin.turn", self.turn, Bound::TURN_RATE.positive()),
-            ("chin.time", self.time, Bound::SECONDS),
-            ("chin.success", self.success, Bound::SHARE),
-            ("chin.walk", self.walk, Bound::SHARE),
-        ]);
-        numbers.or_else(|| {
-            (self.reach.0 >= self.reach.1)
-                .then(|| ("chin.reach".into(), "needs two lengths, the lesser one first".into()))
-        })
+impl Validate for Chin {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("reach.0", self.reach.0, Bound::SIZE),
+            ("reach.1", self.reach.1, Bound::SIZE),
+            ("half_width", self.half_width, Bound::SIZE.positive()),
+            ("speed", self.speed, Bound::SPEED.positive()),
+            ("force", self.force, Bound::FORCE.positive()),
+            ("turn", self.turn, Bound::TURN_RATE.positive()),
+            ("time", self.time, Bound::SECONDS),
+            ("success", self.success, Bound::SHARE),
+            ("walk", self.walk, Bound::SHARE),
+        ])?;
+        let is_ordered = self.reach.0 < self.reach.1;
+        ensure(is_ordered, "reach", || "needs two lengths, the lesser one first".into())
     }
 }
 
-impl Kick {
-    pub(super) fn fault(&self, name: &str) -> Option<Fault> {
-        let numbers = [
+impl Validate for Kick {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("run_out", self.run_out, Bound::LENGTH.positive()),
             ("run_out_spread", self.run_out_spread, Bound::LENGTH),
             ("spread", self.spread, Bound::ANGLE),
             ("direction", self.direction, Bound::HEADING),
             ("time", self.time, Bound::SECONDS.positive()),
-        ];
-        first_fault(numbers).map(|(field, message)| (format!("kicks.{name}.{field}"), message))
+        ])
     }
 }

@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 
 /// Eyes, localisation, odometry and memory of a robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,16 +91,15 @@ pub struct MemorySpans {
     pub robots: f32,
 }
 
-impl Sensing {
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
-        let memory = first_fault([
+impl Validate for Sensing {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("memory.ball", self.memory.ball, Bound::SECONDS),
             ("memory.robots", self.memory.robots, Bound::SECONDS),
-        ]);
-        memory.or_else(|| match &self.eyes {
-            Eyes::Perfect => None,
-            Eyes::Real { camera, localisation, odometry } => first_fault([
+        ])?;
+        match &self.eyes {
+            Eyes::Perfect => Ok(()),
+            Eyes::Real { camera, localisation, odometry } => check_all([
                 ("eyes.camera.field_of_view", camera.field_of_view, Bound::ANGLE.positive()),
                 ("eyes.camera.frame_hz", camera.frame_hz, Bound::RATE.positive()),
                 ("eyes.camera.latency", camera.latency, Bound::DELAY),
@@ -119,6 +118,6 @@ impl Sensing {
                 ("eyes.odometry.distance", odometry.distance, Bound::LENGTH),
                 ("eyes.odometry.heading", odometry.heading, Bound::ANGLE),
             ]),
-        })
+        }
     }
 }

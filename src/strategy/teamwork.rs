@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 use struct_patch::{Merge, Patch};
 
+use crate::data::{Bound, Fault, Validate, check_all, ensure};
 use crate::protocol::b3p;
 use crate::protocol::policy::{Policy, SwapRoles};
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
@@ -169,6 +170,20 @@ impl Default for MessageTiming {
     }
 }
 
+impl Validate for Talk {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("position_every", self.position_every, Bound::SECONDS.positive()),
+            ("position_memory", self.position_memory, Bound::SECONDS),
+            ("claim_every", self.claim_every, Bound::SECONDS.positive()),
+            ("claim_memory", self.claim_memory, Bound::SECONDS),
+            ("claim_radius", self.claim_radius, Bound::LENGTH),
+            ("ball_every", self.ball_every, Bound::SECONDS.positive()),
+            ("ball_memory", self.ball_memory, Bound::SECONDS),
+        ])
+    }
+}
+
 /// How roles are swapped. A team that swaps needs protocol, policy and cast, here or in the strategy that this is based on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -222,6 +237,20 @@ impl Default for BallBooking {
     }
 }
 
+impl Validate for BallBooking {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("threshold", self.threshold, Bound::LENGTH),
+            ("renewal", self.renewal, Bound::SECONDS.positive()),
+            ("sight", self.sight, Bound::SECONDS.positive()),
+            ("timeout", self.timeout, Bound::SECONDS),
+        ])?;
+        ensure(self.timeout > self.renewal, "timeout", || {
+            format!("must be longer than the renewal of {} s, or every booking lapses", self.renewal)
+        })
+    }
+}
+
 /// The version of the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Protocol {
@@ -263,6 +292,20 @@ pub struct Timers {
 impl Default for Timers {
     fn default() -> Timers {
         Timers { lock: 1.5, locks: 0.5, acks: 0.5, back_off: (0.5, 1.5) }
+    }
+}
+
+impl Validate for Timers {
+    fn validate(&self) -> Result<(), Fault> {
+        let (least, most) = self.back_off;
+        check_all([
+            ("lock", self.lock, Bound::SECONDS.positive()),
+            ("locks", self.locks, Bound::SECONDS.positive()),
+            ("acks", self.acks, Bound::SECONDS.positive()),
+            ("back_off.0", least, Bound::SECONDS),
+            ("back_off.1", most, Bound::SECONDS),
+        ])?;
+        ensure(least <= most, "back_off", || "needs two times, the lesser one first".into())
     }
 }
 

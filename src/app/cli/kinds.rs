@@ -66,10 +66,10 @@ pub(super) fn read(
         AssetKind::Match => {
             MatchPlan::read_file(assets, path, &Choice::default())?;
         }
-        AssetKind::Pitch => drop(checked(path, Pitch::fault)?),
-        AssetKind::Robot => drop(checked(path, RobotKind::fault)?),
-        AssetKind::Sensing => drop(checked(path, Sensing::fault)?),
-        AssetKind::Radio => drop(checked(path, Radio::fault)?),
+        AssetKind::Pitch => drop(checked::<Pitch>(path)?),
+        AssetKind::Robot => drop(checked::<RobotKind>(path)?),
+        AssetKind::Sensing => drop(checked::<Sensing>(path)?),
+        AssetKind::Radio => drop(checked::<Radio>(path)?),
         AssetKind::Addresses => drop(read_addresses(path)?),
     }
     Ok(Vec::new())

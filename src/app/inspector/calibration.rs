@@ -147,7 +147,7 @@ fn memory(values: &mut RobotValues) -> Option<&mut MemorySpans> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::AssetFolder;
+    use crate::data::{AssetFolder, Validate};
     use crate::game::{Choice, MatchPlan};
     use crate::ids::Team;
 
@@ -176,8 +176,8 @@ mod tests {
                     if let Some(value) = (knob.at)(&mut changed) {
                         *value = end;
                     }
-                    let fault = changed.kind.fault().or(changed.sensing.fault());
-                    assert_eq!(fault, None, "{} {} at {end}", knob.group, knob.name);
+                    let checked = changed.kind.validate().and(changed.sensing.validate());
+                    assert_eq!(checked, Ok(()), "{} {} at {end}", knob.group, knob.name);
                 }
             }
         }

@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::packet::Packet;
 use crate::comms::tcm::DataType;
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, ensure};
 use crate::ids::RobotId;
 
 /// What happens to which packets. A condition that is left out holds for all.
@@ -89,29 +89,24 @@ impl FaultRule {
             && self.to.is_none_or(|to| to == packet.to)
             && self.between.is_none_or(in_time)
     }
+}
 
-    /// What is wrong with the rule, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
+impl Validate for FaultRule {
+    fn validate(&self) -> Result<(), Fault> {
         if let Which::Nth(0) | Which::From(0) = self.which {
-            return Some(("which".into(), "packets are counted from 1".into()));
+            return Err(Fault::new("which", "packets are counted from 1"));
         }
         if let Some((from, until)) = self.between {
-            let start = Bound::SECONDS.fault(from).map(|message| ("between.0".into(), message));
-            let end = || {
-                let message = Bound::SECONDS.fault(until).filter(|_| until != f32::INFINITY)?;
-                Some(("between.1".into(), message))
-            };
-            let order = || {
-                let message = || format!("must end after its start, not go from {from} to {until}");
-                (from >= until).then(|| ("between".into(), message()))
-            };
-            if let Some(fault) = start.or_else(end).or_else(order) {
-                return Some(fault);
+            Bound::SECONDS.check("between.0", from)?;
+            if until != f32::INFINITY {
+                Bound::SECONDS.check("between.1", until)?;
             }
+            let message = || format!("must end after its start, not go from {from} to {until}");
+            ensure(from < until, "between", message)?;
         }
         match self.act {
-            Act::Delay(seconds) | Act::Duplicate(seconds) => first_fault([("act", seconds, Bound::SECONDS)]),
-            Act::Drop => None,
+            Act::Delay(seconds) | Act::Duplicate(seconds) => Bound::SECONDS.check("act", seconds),
+            Act::Drop => Ok(()),
         }
     }
 }
@@ -249,14 +244,14 @@ mod tests {
 
     #[test]
     fn a_senseless_rule_is_named_with_its_field() {
-        let field = |text| rule(text).fault().map(|(field, _)| field);
+        let field = |text| rule(text).validate().err().map(|fault| fault.field.to_string());
         assert_eq!(field("(which: Nth(1), between: (0.0, 1.0), act: Delay(0.0))"), None);
         assert_eq!(field("(which: Nth(0), act: Drop)").as_deref(), Some("which"));
         assert_eq!(field("(which: From(0), act: Drop)").as_deref(), Some("which"));
         assert_eq!(field("(between: (2.0, 2.0), act: Drop)").as_deref(), Some("between"));
-        assert_eq!(field("(between: (NaN, 2.0), act: Drop)").as_deref(), Some("between.0"));
+        assert_eq!(field("(between: (NaN, 2.0), act: Drop)").as_deref(), Some("between[0]"));
         assert_eq!(field("(between: (1.0, inf), act: Drop)"), None);
-        assert_eq!(field("(between: (1.0, 1e30), act: Drop)").as_deref(), Some("between.1"));
+        assert_eq!(field("(between: (1.0, 1e30), act: Drop)").as_deref(), Some("between[1]"));
         assert_eq!(field("(act: Delay(1e30))").as_deref(), Some("act"));
         assert_eq!(field("(act: Delay(-1.0))").as_deref(), Some("act"));
         assert_eq!(field("(act: Duplicate(inf))").as_deref(), Some("act"));

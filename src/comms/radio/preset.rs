@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all, ensure};
 
 /// The radio that the robots of a match share.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,42 +111,41 @@ impl LossModel {
     }
 }
 
-impl Radio {
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
-        let mut numbers = vec![
+impl Validate for Radio {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("latency.fixed", self.latency.fixed, Bound::DELAY),
             ("latency.jitter", self.latency.jitter, Bound::DELAY),
             ("duplication", self.duplication, Bound::SHARE),
-        ];
+        ])?;
         match self.loss {
             LossModel::None => {}
-            LossModel::Independent(chance) => numbers.push(("loss", chance, Bound::SHARE)),
-            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => numbers.extend([
+            LossModel::Independent(chance) => Bound::SHARE.check("loss", chance)?,
+            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => check_all([
                 ("loss.to_bad", to_bad, Bound::SHARE),
                 ("loss.to_good", to_good, Bound::SHARE),
                 ("loss.loss_in_good", loss_in_good, Bound::SHARE),
                 ("loss.loss_in_bad", loss_in_bad, Bound::SHARE),
-            ]),
+            ])?,
         }
-        if let Some(late) = self.late {
-            numbers.extend([
-                ("late.share", late.share, Bound::SHARE),
-                ("late.min", late.min, Bound::DELAY),
-                ("late.max", late.max, Bound::DELAY),
-            ]);
+        if let Some(LateTail { share, min, max }) = self.late {
+            check_all([
+                ("late.share", share, Bound::SHARE),
+                ("late.min", min, Bound::DELAY),
+                ("late.max", max, Bound::DELAY),
+            ])?;
+            ensure(max >= min, "late.max", || format!("must be at least late.min, {min}, not {max}"))?;
         }
-        numbers.extend(self.range.map(|range| ("range", range, Bound::LENGTH.positive())));
+        if let Some(range) = self.range {
+            Bound::LENGTH.positive().check("range", range)?;
+        }
         if let Some(budget) = self.budget {
-            numbers.extend([
+            check_all([
                 ("budget.bytes_per_second", budget.bytes_per_second, Bound::BYTES.positive()),
                 ("budget.burst", budget.burst, Bound::BYTES.positive()),
-            ]);
+            ])?;
         }
-        first_fault(numbers).or_else(|| {
-            let late = self.late.filter(|late| late.max < late.min)?;
-            Some(("late.max".into(), format!("must be at least late.min, {}, not {}", late.min, late.max)))
-        })
+        Ok(())
     }
 }
 
@@ -211,7 +210,7 @@ mod tests {
     fn bad_field(change: impl FnOnce(&mut Radio)) -> String {
         let mut radio = good();
         change(&mut radio);
-        radio.fault().expect("a fault").0
+        radio.validate().expect_err("a fault").field.to_string()
     }
 
     #[test]
@@ -225,7 +224,7 @@ mod tests {
         ];
         for (text, name, loss) in presets {
             let radio = read(text);
-            assert_eq!(radio.fault(), None, "{name}");
+            assert_eq!(radio.validate(), Ok(()), "{name}");
             assert_eq!(radio.name, name);
             assert!(!radio.description.is_empty());
             assert!((radio.loss.mean_loss() - loss).abs() < 0.005, "{name}: {}", radio.loss.mean_loss());

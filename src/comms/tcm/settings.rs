@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::fragments::{HEADER, LARGEST_DATAGRAM, Limits, USUAL_DATAGRAM};
 use super::queues::{QueueRule, WhenFull};
 use crate::clock::Clock;
-use crate::data::{Bound, Fault, count_fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_count};
 
 /// A field that a file leaves out has its default.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,22 +46,18 @@ const MOST_MESSAGES: usize = 100_000;
 /// A message, bytes.
 const LONGEST: usize = 16 << 20;
 
-impl TcmSettings {
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
-        let counts = [
-            ("datagram", self.datagram, HEADER + 1..=LARGEST_DATAGRAM),
-            ("queue.capacity", self.queue.capacity, 1..=MOST_MESSAGES),
-            ("messages_per_tick", self.messages_per_tick, 1..=MOST_MESSAGES),
-            ("max_partial", self.max_partial, 1..=MOST_MESSAGES),
-            ("longest", self.longest, 1..=LONGEST),
-        ];
-        let faulty =
-            |(field, count, within): (&str, usize, _)| Some((field.into(), count_fault(count, within)?));
-        let timeout = [("timeout", self.timeout, Bound::SECONDS.positive())];
-        counts.into_iter().find_map(faulty).or_else(|| first_fault(timeout))
+impl Validate for TcmSettings {
+    fn validate(&self) -> Result<(), Fault> {
+        check_count("datagram", "", self.datagram, HEADER + 1..=LARGEST_DATAGRAM)?;
+        check_count("queue.capacity", "", self.queue.capacity, 1..=MOST_MESSAGES)?;
+        check_count("messages_per_tick", "", self.messages_per_tick, 1..=MOST_MESSAGES)?;
+        check_count("max_partial", "", self.max_partial, 1..=MOST_MESSAGES)?;
+        check_count("longest", "", self.longest, 1..=LONGEST)?;
+        Bound::SECONDS.positive().check("timeout", self.timeout)
     }
+}
 
+impl TcmSettings {
     /// What an assembly may cost.
     pub fn limits(&self, clock: &Clock) -> Limits {
         Limits {

@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::queue::Requests;
 use super::request::{RadioChange, Request};
 use crate::comms::radio::{Channel, FaultRules, Interference};
-use crate::data::Bound;
+use crate::data::{Bound, Validate};
 
 pub(super) fn change_radio(
     requests: Res<Requests>,
@@ -16,7 +16,7 @@ pub(super) fn change_radio(
     for request in requests.due() {
         let Request::Radio(change) = request else { continue };
         match change {
-            RadioChange::Change(radio) if radio.fault().is_some() => {}
+            RadioChange::Change(radio) if radio.validate().is_err() => {}
             RadioChange::Change(radio) => channel.set_radio(radio.clone()),
             RadioChange::ExtraLoss(share) => interference.extra_loss = Bound::SHARE.clamp(*share),
             RadioChange::ExtraDelay(seconds) => interference.extra_delay = Bound::DELAY.clamp(*seconds),
@@ -29,7 +29,7 @@ pub(super) fn change_radio(
             }
             RadioChange::Part(partition) => interference.partitions.push(partition.clone()),
             RadioChange::Heal => interference.partitions.clear(),
-            RadioChange::Fault(rule) if rule.fault().is_some() => {}
+            RadioChange::Fault(rule) if rule.validate().is_err() => {}
             RadioChange::Fault(rule) => faults.add(rule.clone()),
         }
     }

@@ -9,6 +9,7 @@ use super::queue::Requests;
 use super::request::{Calibration, Request, RobotChange};
 use crate::clock::Clock;
 use crate::comms::tcm::{Tcm, TcmClient};
+use crate::data::Validate;
 use crate::ids::RobotId;
 use crate::mind::perception::Memory;
 use crate::mind::teamwork::{Booking, Swapping, TeamModel};
@@ -91,7 +92,7 @@ impl RobotQueryItem<'_, '_> {
 
     /// Values that make no sense change nothing.
     fn recalibrate(&mut self, Calibration { kind, sensing }: &Calibration) {
-        if kind.fault().or(sensing.fault()).is_some() {
+        if kind.validate().and(sensing.validate()).is_err() {
             return;
         }
         let own = &self.robot.kind;

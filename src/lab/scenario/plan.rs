@@ -10,7 +10,7 @@ use super::check::{Known, KnownTeam, Player, Scenario, check};
 use super::event::{Dependency, Event};
 use super::file::{Referee, ScenarioFile, SideFile};
 use crate::clock::{Clock, TICK_HZ};
-use crate::comms::radio::{Partition, Radio};
+use crate::comms::radio::Partition;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path, no_such};
 use crate::game::requests::{BodyChange, RadioChange, Request, RobotChange};
 use crate::game::{Choice, DEFAULT_MATCH, MatchPlan, Placed, Situation, TeamPlan, checked, file_named};
@@ -132,9 +132,7 @@ impl ScenarioPlan {
         let game = file_named(assets, source, AssetKind::Match, ("game", game))?;
         let usual = MatchPlan::read_file(assets, &game, &Choice::default())?;
         let pitch = match &file.pitch {
-            Some(name) => {
-                checked(&file_named(assets, source, AssetKind::Pitch, ("pitch", name))?, Pitch::fault)?
-            }
+            Some(name) => checked(&file_named(assets, source, AssetKind::Pitch, ("pitch", name))?)?,
             None => usual.pitch.clone(),
         };
         let home = source.required(&file.home, &Field::root(), "home")?;
@@ -155,7 +153,7 @@ impl ScenarioPlan {
         let scenario = check(file, source, &known)?;
         let mut match_plan = MatchPlan {
             name: scenario.name.clone(),
-            radio: checked(&assets.file(AssetKind::Radio, &scenario.radio), Radio::fault)?,
+            radio: checked(&assets.file(AssetKind::Radio, &scenario.radio))?,
             teams: teams.clone(),
             seed: scenario.seeds.first().copied().unwrap_or(1),
             situation: Some(situation(&scenario)),
@@ -304,9 +302,7 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
         })),
         Event::Heal => Request::Radio(RadioChange::Heal),
         Event::Jam(jammed) => Request::Radio(RadioChange::Jam(*jammed)),
-        Event::Radio(name) => {
-            Request::Radio(RadioChange::Change(checked(&assets.file(AssetKind::Radio, name), Radio::fault)?))
-        }
+        Event::Radio(name) => Request::Radio(RadioChange::Change(checked(&assets.file(AssetKind::Radio, name))?)),
         Event::Ball { at, velocity } => Request::Body(BodyChange::Ball { at: *at, velocity: *velocity }),
         Event::Push { robot, by } => Request::Body(BodyChange::Push { robot: *robot, by: *by }),
         Event::Kidnap { robot, to, facing } => {

@@ -13,7 +13,7 @@ use smallvec::smallvec;
 use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use super::members::{Bidder, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all, ensure};
 use crate::geometry::{angle, wrap_angle};
 use crate::ids::PlayerNumber;
 use crate::protocol::role_swap::Reassignment;
@@ -90,23 +90,21 @@ impl Art {
         let way_home = self.places.distance(me.position, Duty::Halfback, ball, knowledge.goal);
         Some(smallvec![reach, nearness(way_home, self.half)])
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        let hysteresis = || {
-            let reason = || format!("must be less than enter, {}, not {}", self.enter, self.leave);
-            (self.leave >= self.enter).then(|| ("leave".into(), reason()))
-        };
-        let numbers = || {
-            first_fault([
-                ("half", self.half, Bound::LENGTH.positive()),
-                ("turning", self.turning, Bound::FACTOR),
-                ("enter", self.enter, Bound::FACTOR.positive()),
-                ("leave", self.leave, Bound::FACTOR),
-                ("max_age", self.max_age, Bound::SECONDS.positive()),
-                ("rest", self.rest, Bound::SECONDS),
-            ])
-        };
-        self.places.fault().or_else(numbers).or_else(hysteresis)
+impl Validate for Art {
+    fn validate(&self) -> Result<(), Fault> {
+        self.places.validate_as("places")?;
+        check_all([
+            ("half", self.half, Bound::LENGTH.positive()),
+            ("turning", self.turning, Bound::FACTOR),
+            ("enter", self.enter, Bound::FACTOR.positive()),
+            ("leave", self.leave, Bound::FACTOR),
+            ("max_age", self.max_age, Bound::SECONDS.positive()),
+            ("rest", self.rest, Bound::SECONDS),
+        ])?;
+        let (enter, leave) = (self.enter, self.leave);
+        ensure(leave < enter, "leave", || format!("must be less than enter, {enter}, not {leave}"))
     }
 }
 

@@ -9,7 +9,7 @@ use smallvec::smallvec;
 
 use super::knowledge::{Duty, Knowledge, SwapRoles};
 use super::members::{Distribution, Member, me, members, reassignment};
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate};
 use crate::protocol::role_swap::Reassignment;
 
 /// The rule as it was played: who becomes what depends on the roles alone.
@@ -53,9 +53,11 @@ impl CaseBased {
         let SwapRoles { halfback, floater, forward } = *cast;
         Some(Reassignment::Roles(smallvec![(halfback, forward), (forward, floater), (floater, halfback)]))
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([("beyond", self.beyond, Bound::SHARE)])
+impl Validate for CaseBased {
+    fn validate(&self) -> Result<(), Fault> {
+        Bound::SHARE.check("beyond", self.beyond)
     }
 }
 
@@ -78,9 +80,11 @@ impl ClosestBecomesForward {
             smallvec![(closest, Duty::Forward), (middle, Duty::Floater), (back, Duty::Halfback)];
         reassignment(cast, &distribution)
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([("beyond", self.beyond, Bound::SHARE)])
+impl Validate for ClosestBecomesForward {
+    fn validate(&self) -> Result<(), Fault> {
+        Bound::SHARE.check("beyond", self.beyond)
     }
 }
 

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use super::members::{Member, bidders, exchange, highest, is_given_up, me, members};
 use super::places::{Places, ball, nearness};
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 use crate::protocol::role_swap::Reassignment;
 
 /// Columns: forward (the main attacker), floater (the helping one), halfback (the defender).
@@ -78,15 +78,16 @@ impl CsFreiburg {
         let best = (0..values.len()).reduce(|a, b| if values[b] > values[a] { b } else { a })?;
         (best != own && values[best] > values[own] + self.margin).then_some(best as u8)
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        self.places.fault().or_else(|| {
-            first_fault([
-                ("half", self.half, Bound::LENGTH.positive()),
-                ("margin", self.margin, Bound::FACTOR),
-                ("max_age", self.max_age, Bound::SECONDS.positive()),
-                ("rest", self.rest, Bound::SECONDS),
-            ])
-        })
+impl Validate for CsFreiburg {
+    fn validate(&self) -> Result<(), Fault> {
+        self.places.validate_as("places")?;
+        check_all([
+            ("half", self.half, Bound::LENGTH.positive()),
+            ("margin", self.margin, Bound::FACTOR),
+            ("max_age", self.max_age, Bound::SECONDS.positive()),
+            ("rest", self.rest, Bound::SECONDS),
+        ])
     }
 }

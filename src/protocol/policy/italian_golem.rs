@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::knowledge::{ColumnValues, Duty, Knowledge, SwapRoles};
 use super::members::{Members, bidders, by_importance, first_to_gain, me, members, reassignment};
 use super::places::{Places, ball, nearness};
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 use crate::protocol::role_swap::Reassignment;
 
 /// Columns: acquire, support, defend.
@@ -65,16 +65,17 @@ impl ItalianGolem {
         };
         Some(Duty::ALL.into_iter().map(value).collect())
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        self.places.fault().or_else(|| {
-            first_fault([
-                ("half", self.half, Bound::LENGTH.positive()),
-                ("possession", self.possession, Bound::FACTOR),
-                ("lead", self.lead, Bound::FACTOR),
-                ("max_age", self.max_age, Bound::SECONDS.positive()),
-                ("rest", self.rest, Bound::SECONDS),
-            ])
-        })
+impl Validate for ItalianGolem {
+    fn validate(&self) -> Result<(), Fault> {
+        self.places.validate_as("places")?;
+        check_all([
+            ("half", self.half, Bound::LENGTH.positive()),
+            ("possession", self.possession, Bound::FACTOR),
+            ("lead", self.lead, Bound::FACTOR),
+            ("max_age", self.max_age, Bound::SECONDS.positive()),
+            ("rest", self.rest, Bound::SECONDS),
+        ])
     }
 }

@@ -25,7 +25,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::Fault;
+use crate::data::{Fault, Validate};
 use crate::protocol::role_swap::Reassignment;
 pub use art::Art;
 pub use case_based::{CaseBased, ClosestBecomesForward};
@@ -96,19 +96,6 @@ impl Policy {
         }
     }
 
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<Fault> {
-        match self {
-            Policy::CaseBased(policy) => policy.fault(),
-            Policy::ClosestBecomesForward(policy) => policy.fault(),
-            Policy::CsFreiburg(policy) => policy.fault(),
-            Policy::Art(policy) => policy.fault(),
-            Policy::Rmit(policy) => policy.fault(),
-            Policy::ItalianGolem(policy) => policy.fault(),
-            Policy::Optimal(policy) => policy.fault(),
-        }
-    }
-
     /// Seconds for which nothing must have changed before a swap is proposed.
     fn rest(&self) -> f32 {
         match self {
@@ -118,6 +105,20 @@ impl Policy {
             Policy::Rmit(policy) => policy.rest,
             Policy::ItalianGolem(policy) => policy.rest,
             Policy::Optimal(policy) => policy.rest,
+        }
+    }
+}
+
+impl Validate for Policy {
+    fn validate(&self) -> Result<(), Fault> {
+        match self {
+            Policy::CaseBased(policy) => policy.validate(),
+            Policy::ClosestBecomesForward(policy) => policy.validate(),
+            Policy::CsFreiburg(policy) => policy.validate(),
+            Policy::Art(policy) => policy.validate(),
+            Policy::Rmit(policy) => policy.validate(),
+            Policy::ItalianGolem(policy) => policy.validate(),
+            Policy::Optimal(policy) => policy.validate(),
         }
     }
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::knowledge::{Knowledge, SwapRoles};
 use super::members::{Distribution, Member, duties, members, reassignment};
 use super::places::{Places, ball};
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 use crate::protocol::role_swap::Reassignment;
 
 /// The assignment with the least cost in all (Kuhn-Munkres).
@@ -54,11 +54,12 @@ impl Optimal {
             members.iter().zip(columns).map(|(member, column)| (*member, duties[column])).collect();
         reassignment(cast, &distribution)
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        self.places.fault().or_else(|| {
-            first_fault([("min_gain", self.min_gain, Bound::LENGTH), ("rest", self.rest, Bound::SECONDS)])
-        })
+impl Validate for Optimal {
+    fn validate(&self) -> Result<(), Fault> {
+        self.places.validate_as("places")?;
+        check_all([("min_gain", self.min_gain, Bound::LENGTH), ("rest", self.rest, Bound::SECONDS)])
     }
 }
 

@@ -5,7 +5,7 @@ use crate::geometry::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::knowledge::{Duty, Knowledge};
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 
 /// The places, relative to ball and goals.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,13 +40,15 @@ impl Places {
             Duty::Halfback => from.distance((-goal).lerp(ball, self.guard)),
         }
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([
-            ("places.standoff", self.standoff, Bound::LENGTH),
-            ("places.behind", self.behind, Bound::LENGTH),
-            ("places.aside", self.aside, Bound::LENGTH),
-            ("places.guard", self.guard, Bound::SHARE),
+impl Validate for Places {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("standoff", self.standoff, Bound::LENGTH),
+            ("behind", self.behind, Bound::LENGTH),
+            ("aside", self.aside, Bound::LENGTH),
+            ("guard", self.guard, Bound::SHARE),
         ])
     }
 }

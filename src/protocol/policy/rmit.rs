@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::knowledge::{Duty, Knowledge, SwapRoles};
 use super::members::{by_importance, first_to_gain, members, reassignment};
 use super::places::ball;
-use crate::data::{Bound, Fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all};
 use crate::protocol::role_swap::Reassignment;
 
 /// Roles by position and orientation, again and again, as RMIT United did.
@@ -48,9 +48,11 @@ impl Rmit {
         let distribution = by_importance(&members, [Duty::Forward, Duty::Halfback, Duty::Floater], score)?;
         if first_to_gain(&distribution)? == knowledge.me { reassignment(cast, &distribution) } else { None }
     }
+}
 
-    pub(super) fn fault(&self) -> Option<Fault> {
-        first_fault([
+impl Validate for Rmit {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
             ("bonus", self.bonus, Bound::LENGTH),
             ("wrong_side", self.wrong_side, Bound::FACTOR),
             ("rest", self.rest, Bound::SECONDS),

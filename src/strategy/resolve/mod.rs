@@ -16,7 +16,7 @@ use super::{
     Assemblage, Combination, HomebaseRule, Machine, Part, Play, RoleSpec, State, Strategy, SubRole, Term,
     Transition, Turn,
 };
-use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
+use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Zone;
 pub(super) use teamwork::Roles;
 
@@ -105,8 +105,7 @@ impl Resolver<'_> {
     }
 
     fn count(&self, what: &str, count: usize, most: usize, at: &Field) -> Result<()> {
-        count_fault(count, 0..=most)
-            .map_or(Ok(()), |message| self.fault(at, format!("the number of {what} {message}")))
+        self.source.locate(at, check_count("", &format!("the number of {what}"), count, 0..=most))
     }
 
     /// Checks one value inside others, and what is inside it.

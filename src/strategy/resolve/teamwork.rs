@@ -3,7 +3,7 @@
 use struct_patch::Patch;
 
 use super::Result;
-use crate::data::{Bound, Field, Source, no_such};
+use crate::data::{Field, Source, Validate, no_such};
 use crate::protocol::policy::SwapRoles;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
@@ -34,13 +34,13 @@ impl Roles<'_> {
         let goalie = file.goalie.as_ref().map(|name| self.index(name, &at.key("goalie"))).transpose()?;
         let mut talk = MessageTiming::default();
         talk.apply(file.talk);
-        self.talk(&talk, &at.key("talk"))?;
+        self.source.locate(&at.key("talk"), talk.validate())?;
         let role_swap = file.role_swap.as_ref().map(|swap| self.role_swap(swap, &at.key("role_swap")));
         let mut ball_booking = None;
         if let Some(file) = file.ball_booking {
             let booking = ball_booking.insert(BallBooking::default());
             booking.apply(file);
-            self.ball_booking(booking, &at.key("ball_booking"))?;
+            self.source.locate(&at.key("ball_booking"), booking.validate())?;
         }
         Ok(Teamwork {
             mechanisms,
@@ -61,43 +61,14 @@ impl Roles<'_> {
         RoleIndex::try_from(index).map_err(|_| self.source.error_at(at, "a strategy has 256 roles at most"))
     }
 
-    fn within(&self, value: f32, bound: Bound, at: &Field) -> Result<()> {
-        self.source.within(at, value, bound)
-    }
-
-    fn talk(&self, talk: &MessageTiming, at: &Field) -> Result<()> {
-        self.within(talk.position_every, Bound::SECONDS.positive(), &at.key("position_every"))?;
-        self.within(talk.position_memory, Bound::SECONDS, &at.key("position_memory"))?;
-        self.within(talk.claim_every, Bound::SECONDS.positive(), &at.key("claim_every"))?;
-        self.within(talk.claim_memory, Bound::SECONDS, &at.key("claim_memory"))?;
-        self.within(talk.claim_radius, Bound::LENGTH, &at.key("claim_radius"))?;
-        self.within(talk.ball_every, Bound::SECONDS.positive(), &at.key("ball_every"))?;
-        self.within(talk.ball_memory, Bound::SECONDS, &at.key("ball_memory"))
-    }
-
-    fn ball_booking(&self, booking: &BallBooking, at: &Field) -> Result<()> {
-        self.within(booking.threshold, Bound::LENGTH, &at.key("threshold"))?;
-        self.within(booking.renewal, Bound::SECONDS.positive(), &at.key("renewal"))?;
-        self.within(booking.sight, Bound::SECONDS.positive(), &at.key("sight"))?;
-        self.within(booking.timeout, Bound::SECONDS, &at.key("timeout"))?;
-        if booking.timeout <= booking.renewal {
-            let message =
-                format!("must be longer than the renewal of {} s, or every booking lapses", booking.renewal);
-            return Err(self.source.error_at(&at.key("timeout"), message));
-        }
-        Ok(())
-    }
-
     fn role_swap(&self, file: &RoleSwapFile, at: &Field) -> Result<RoleSwapSpec> {
         let protocol = self.source.required(&file.protocol, at, "protocol")?;
         let policy = self.source.required(&file.policy, at, "policy")?;
         let cast = self.source.required(&file.cast, at, "cast")?;
-        if let Some((field, message)) = policy.fault() {
-            return Err(self.source.error_at(&at.key("policy").dotted(&field), message));
-        }
+        self.source.locate(&at.key("policy"), policy.validate())?;
         let mut timers = Timers::default();
         timers.apply(file.timers);
-        self.timers(&timers, &at.key("timers"))?;
+        self.source.locate(&at.key("timers"), timers.validate())?;
         Ok(RoleSwapSpec { protocol, policy, cast: self.cast(&cast, &at.key("cast"))?, timers })
     }
 
@@ -109,19 +80,5 @@ impl Roles<'_> {
             return Err(self.source.error_at(at, "needs three different roles"));
         }
         Ok(SwapRoles { halfback, floater, forward })
-    }
-
-    fn timers(&self, timers: &Timers, at: &Field) -> Result<()> {
-        self.within(timers.lock, Bound::SECONDS.positive(), &at.key("lock"))?;
-        self.within(timers.locks, Bound::SECONDS.positive(), &at.key("locks"))?;
-        self.within(timers.acks, Bound::SECONDS.positive(), &at.key("acks"))?;
-        let (least, most) = timers.back_off;
-        self.within(least, Bound::SECONDS, &at.key("back_off").index(0))?;
-        self.within(most, Bound::SECONDS, &at.key("back_off").index(1))?;
-        if least > most {
-            let message = "needs two times, the lesser one first";
-            return Err(self.source.error_at(&at.key("back_off"), message));
-        }
-        Ok(())
     }
 }

@@ -9,7 +9,7 @@ mod four_legged;
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Bound, Fault, count_fault, first_fault};
+use crate::data::{Bound, Fault, Validate, check_all, check_count};
 
 pub use four_legged::{
     BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, Stuck, ThrowIn,
@@ -112,9 +112,10 @@ impl RuleBook {
             || self.pushing.is_some()
             || !self.goal_from_kick_off
     }
+}
 
-    /// What is wrong with the numbers, as the field's path and a reason; `None` for a sound book.
-    pub fn fault(&self) -> Option<Fault> {
+impl Validate for RuleBook {
+    fn validate(&self) -> Result<(), Fault> {
         let (seconds, metres) = (Bound::SECONDS, Bound::LENGTH);
         let mut numbers = vec![
             ("half_minutes", self.half_minutes, Bound::MINUTES.positive()),
@@ -153,10 +154,9 @@ impl RuleBook {
             ]);
         }
         numbers.extend(self.leaving.map(|beyond| ("leaving", beyond, metres)));
-        first_fault(numbers).or_else(|| {
-            let message = count_fault(self.mercy? as usize, 1..=MOST_GOALS)?;
-            Some(("mercy".into(), format!("the lead {message}")))
-        })
+        check_all(numbers)?;
+        let check = |lead| check_count("mercy", "the lead", lead as usize, 1..=MOST_GOALS);
+        self.mercy.map_or(Ok(()), check)
     }
 }
 
@@ -169,28 +169,27 @@ mod tests {
 
     #[test]
     fn the_default_book_is_sound_and_a_half_has_six_hundred_seconds() {
-        assert_eq!(RuleBook::default().fault(), None);
+        assert_eq!(RuleBook::default().validate(), Ok(()));
         assert_eq!(RuleBook::default().half_seconds(), 600.0);
     }
 
     #[test]
     fn a_bad_number_is_named_with_its_field() {
         let endless = RuleBook { half_minutes: f32::INFINITY, ..RuleBook::default() };
-        assert_eq!(endless.fault().unwrap().0, "half_minutes");
+        assert_eq!(endless.validate().unwrap_err().field.to_string(), "half_minutes");
         let a_week = RuleBook { half_minutes: 10_080.0, ..RuleBook::default() };
-        assert_eq!(a_week.fault().unwrap().1, "must be at most 1440 min, not 10080");
+        assert_eq!(a_week.validate().unwrap_err().message, "must be at most 1440 min, not 10080");
         let still = RuleBook { no_progress_distance: 0.0, ..RuleBook::default() };
-        let (field, reason) = still.fault().unwrap();
-        assert_eq!(field, "no_progress_distance");
-        assert_eq!(reason, "must be at least 0.001 m, not 0");
+        let fault = Fault::new("no_progress_distance", "must be at least 0.001 m, not 0");
+        assert_eq!(still.validate(), Err(fault));
         let backwards = RuleBook { set_seconds: -1.0, ..RuleBook::default() };
-        assert_eq!(backwards.fault().unwrap().0, "set_seconds");
+        assert_eq!(backwards.validate().unwrap_err().field.to_string(), "set_seconds");
     }
 
     #[test]
     fn waits_may_be_zero() {
         let hasty =
             RuleBook { ready_seconds: 0.0, set_seconds: 0.0, removal_seconds: 0.0, ..RuleBook::default() };
-        assert_eq!(hasty.fault(), None);
+        assert_eq!(hasty.validate(), Ok(()));
     }
 }

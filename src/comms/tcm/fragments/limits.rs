@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::data::{Fault, Validate, ensure};
+
 /// What an assembly may cost, and how long it waits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,21 +30,15 @@ impl Limits {
     pub fn memory(&self) -> usize {
         self.bytes.saturating_add(self.messages.saturating_mul(ENTRY_COST))
     }
+}
 
-    /// What is wrong with the numbers, as the field's path and a reason.
-    pub fn fault(&self) -> Option<(&'static str, String)> {
-        if self.messages == 0 {
-            return Some(("messages", "must be at least 1, not 0".into()));
-        }
-        if self.timeout == 0 {
-            return Some(("timeout", "must be at least 1, not 0".into()));
-        }
+impl Validate for Limits {
+    fn validate(&self) -> Result<(), Fault> {
+        ensure(self.messages > 0, "messages", || "must be at least 1, not 0".into())?;
+        ensure(self.timeout > 0, "timeout", || "must be at least 1, not 0".into())?;
         let least = self.message_bytes.saturating_add(ENTRY_COST + 2 * PIECE_COST);
-        (self.bytes < least).then(|| {
-            (
-                "bytes",
-                format!("must be at least {least}, for one message of message_bytes, not {}", self.bytes),
-            )
+        ensure(self.bytes >= least, "bytes", || {
+            format!("must be at least {least}, for one message of message_bytes, not {}", self.bytes)
         })
     }
 }

@@ -15,7 +15,7 @@ use super::event::{Dependency, Event, TimedEvent};
 use super::file::{Places, PlayerFile, Referee, ScenarioFile, SideFile};
 use super::watch::ticks;
 use crate::comms::radio::FaultRule;
-use crate::data::{Bound, DataError, Field, Source, count_fault, no_such};
+use crate::data::{Bound, DataError, Field, Source, Validate, check_count, no_such};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
@@ -226,9 +226,7 @@ impl Checker<'_> {
     }
 
     fn seeds(&self, seeds: Vec<u64>, at: &Field) -> Result<Vec<u64>> {
-        if let Some(message) = count_fault(seeds.len(), 1..=MOST_SEEDS) {
-            return self.fault(at, format!("the number of seeds {message}"));
-        }
+        self.source.locate(at, check_count("", "the number of seeds", seeds.len(), 1..=MOST_SEEDS))?;
         if let Some(i) = seeds.iter().position(|seed| *seed > LARGEST_SEED) {
             return self.fault(&at.index(i), format!("must be at most {LARGEST_SEED}, not {}", seeds[i]));
         }
@@ -239,9 +237,7 @@ impl Checker<'_> {
     }
 
     fn places(&self, places: &Places, at: &Field) -> Result<Vec<Vec2>> {
-        if let Some(message) = count_fault(places.count(), 1..=MOST_PLACES) {
-            return self.fault(at, format!("the number of places {message}"));
-        }
+        self.source.locate(at, check_count("", "the number of places", places.count(), 1..=MOST_PLACES))?;
         let known = places.to_vec();
         for (i, place) in known.iter().enumerate() {
             self.on_pitch(*place, at)?;
@@ -312,10 +308,7 @@ impl Checker<'_> {
     fn rule(&self, rule: &FaultRule, at: &Field) -> Result<()> {
         self.maybe_robot(rule.from, &at.key("from"))?;
         self.maybe_robot(rule.to, &at.key("to"))?;
-        match rule.fault() {
-            Some((field, message)) => self.fault(&at.dotted(&field), message),
-            None => Ok(()),
-        }
+        self.source.locate(at, rule.validate())
     }
 
     fn event(&self, event: &TimedEvent, at: &Field) -> Result<()> {

@@ -31,21 +31,21 @@ fn a_constant_that_is_written_replaces_its_default() {
 
 #[test]
 fn the_defaults_are_sound() {
-    assert!(properties::policies().iter().all(|policy| policy.fault().is_none()));
+    assert!(properties::policies().iter().all(|policy| policy.validate().is_ok()));
 }
 
 #[test]
 fn a_bad_constant_is_named_with_its_field() {
-    let fault = |text| read(text).fault().expect(text);
-    assert_eq!(fault("CaseBased(beyond: 1.5)"), ("beyond".into(), "must be at most 1, not 1.5".into()));
-    assert_eq!(fault("ClosestBecomesForward(beyond: -1.0)").0, "beyond");
-    assert_eq!(fault("CsFreiburg(half: 0.0)"), ("half".into(), "must be at least 0.001 m, not 0".into()));
-    assert_eq!(fault("CsFreiburg(places: (guard: NaN))").0, "places.guard");
-    assert_eq!(
-        fault("Art(enter: 1.0, leave: 1.0)"),
-        ("leave".into(), "must be less than enter, 1, not 1".into())
-    );
-    assert_eq!(fault("Rmit(bonus: -0.5)"), ("bonus".into(), "must be at least 0 m, not -0.5".into()));
-    assert_eq!(fault("ItalianGolem(max_age: inf)").0, "max_age");
-    assert_eq!(fault("Optimal(min_gain: -1.0)").0, "min_gain");
+    for (text, field, message) in [
+        ("CaseBased(beyond: 1.5)", "beyond", "must be at most 1, not 1.5"),
+        ("ClosestBecomesForward(beyond: -1.0)", "beyond", "must be at least 0, not -1"),
+        ("CsFreiburg(half: 0.0)", "half", "must be at least 0.001 m, not 0"),
+        ("CsFreiburg(places: (guard: NaN))", "places.guard", "must be a number, not NaN"),
+        ("Art(enter: 1.0, leave: 1.0)", "leave", "must be less than enter, 1, not 1"),
+        ("Rmit(bonus: -0.5)", "bonus", "must be at least 0 m, not -0.5"),
+        ("ItalianGolem(max_age: inf)", "max_age", "must be at most 86400 s, not inf"),
+        ("Optimal(min_gain: -1.0)", "min_gain", "must be at least 0 m, not -1"),
+    ] {
+        assert_eq!(read(text).validate(), Err(Fault::new(field, message)), "{text}");
+    }
 }

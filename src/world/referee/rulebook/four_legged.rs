@@ -126,6 +126,7 @@ pub enum ReturnPlace {
 
 #[cfg(test)]
 mod tests {
+    use crate::data::Validate;
     use crate::world::referee::rulebook::RuleBook;
     use crate::world::referee::rules::four_legged_book;
 
@@ -134,7 +135,7 @@ mod tests {
     #[test]
     fn a_file_gives_the_four_legged_rules_and_its_defaults_are_those_of_2008() {
         let book = four_legged_book();
-        assert_eq!(book.fault(), None);
+        assert_eq!(book.validate(), Ok(()));
         assert_eq!(book.kick_off, KickOffStyle::Walked);
         assert_eq!(book.ball_holding, Some(BallHolding::default()));
         assert_eq!(book.out, Out::ThrowIn(ThrowIn { back: 1.0, inside: 0.4, from_end: 1.0 }));
@@ -176,7 +177,7 @@ mod tests {
         for (path, spoil) in bad {
             let mut book = four_legged_book();
             spoil(&mut book);
-            assert_eq!(book.fault().map(|(field, _)| field).as_deref(), Some(path));
+            assert_eq!(book.validate().unwrap_err().field.to_string(), path);
         }
     }
 }

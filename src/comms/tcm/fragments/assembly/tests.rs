@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::comms::tcm::fragments::{HEADER, cut};
+use crate::data::Validate;
 
 const LIMITS: Limits = Limits { messages: 3, bytes: 6_000, message_bytes: 1_000, timeout: 10 };
 
@@ -174,11 +175,14 @@ fn malformed_datagrams_are_counted_by_their_reason() {
 
 #[test]
 fn limits_that_make_no_sense_are_named() {
-    let fault = |limits: Limits| limits.fault().map(|fault| fault.0);
-    assert_eq!((fault(LIMITS), fault(Limits::default())), (None, None));
-    assert_eq!(fault(Limits { messages: 0, ..LIMITS }), Some("messages"));
-    assert_eq!(fault(Limits { timeout: 0, ..LIMITS }), Some("timeout"));
-    assert_eq!(fault(Limits { bytes: 1_000, ..LIMITS }), Some("bytes"));
+    assert_eq!((LIMITS.validate(), Limits::default().validate()), (Ok(()), Ok(())));
+    for (limits, field) in [
+        (Limits { messages: 0, ..LIMITS }, "messages"),
+        (Limits { timeout: 0, ..LIMITS }, "timeout"),
+        (Limits { bytes: 1_000, ..LIMITS }, "bytes"),
+    ] {
+        assert_eq!(limits.validate().unwrap_err().field.to_string(), field);
+    }
 }
 
 proptest! {
