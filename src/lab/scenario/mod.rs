@@ -7,6 +7,7 @@ mod check;
 mod condition;
 mod event;
 mod file;
+mod finding;
 mod judge;
 mod plan;
 mod report;
