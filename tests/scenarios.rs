@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use touchline::data::AssetKind;
-use touchline::lab::scenario::{Report, ScenarioPlan, ScenarioRef};
+use touchline::lab::scenario::{ScenarioPlan, ScenarioRef, ScenarioReport};
 
 use crate::support::assets;
 
@@ -18,7 +18,10 @@ fn plans() -> Vec<ScenarioPlan> {
 }
 
 /// Plays all scenarios on two threads; the reports are in the scenarios' order.
-fn play(plans: &[ScenarioPlan], run: impl Fn(&ScenarioPlan) -> Option<Report> + Sync) -> Vec<Report> {
+fn play(
+    plans: &[ScenarioPlan],
+    run: impl Fn(&ScenarioPlan) -> Option<ScenarioReport> + Sync,
+) -> Vec<ScenarioReport> {
     let next = AtomicUsize::new(0);
     let worker = || {
         let mut done = Vec::new();
@@ -39,9 +42,9 @@ fn play(plans: &[ScenarioPlan], run: impl Fn(&ScenarioPlan) -> Option<Report> + 
 }
 
 #[track_caller]
-fn assert_all_pass(reports: &[Report]) {
+fn assert_all_pass(reports: &[ScenarioReport]) {
     let failed: Vec<String> =
-        reports.iter().filter(|report| !report.passed()).map(Report::to_string).collect();
+        reports.iter().filter(|report| !report.passed()).map(ScenarioReport::to_string).collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }
 

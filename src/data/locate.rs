@@ -7,7 +7,7 @@
 use std::collections::HashSet;
 
 use super::field::Segment;
-use super::scan::{Kind, Scanner};
+use super::scan::{Scanner, TokenKind};
 
 /// The line and column, both counted from 1 and in characters, of the value at `path`, or of the deepest value on the
 /// way to it. `None` if the text holds no value at all.
@@ -104,12 +104,12 @@ impl Reading {
 struct Value<'a> {
     name: Option<&'a str>,
     bracket: Option<char>,
-    entries: Vec<Entry<'a>>,
+    entries: Vec<ValueEntry<'a>>,
 }
 
 /// One thing in brackets: an element, or a key with its value.
 #[derive(Debug)]
-struct Entry<'a> {
+struct ValueEntry<'a> {
     key: Option<&'a str>,
     offset: usize,
 }
@@ -119,12 +119,12 @@ impl<'a> Value<'a> {
         let mut scanner = Scanner::new(text, offset);
         let mut token = scanner.token();
         let mut name = None;
-        if let Some((Kind::Word, range)) = token {
+        if let Some((TokenKind::Word, range)) = token {
             name = Some(without_raw_prefix(&text[range]));
-            token = scanner.token().filter(|(kind, _)| *kind == Kind::Open('('));
+            token = scanner.token().filter(|(kind, _)| *kind == TokenKind::Open('('));
         }
         match token {
-            Some((Kind::Open(bracket), _)) => {
+            Some((TokenKind::Open(bracket), _)) => {
                 Value { name, bracket: Some(bracket), entries: read_entries(text, scanner) }
             }
             _ => Value { name, bracket: None, entries: Vec::new() },
@@ -146,13 +146,13 @@ impl<'a> Value<'a> {
     /// The place of the only thing in round brackets, which are then perhaps no more than a wrapper.
     fn wrapped(&self) -> Option<usize> {
         match &self.entries[..] {
-            [Entry { key: None, offset }] if self.bracket == Some('(') => Some(*offset),
+            [ValueEntry { key: None, offset }] if self.bracket == Some('(') => Some(*offset),
             _ => None,
         }
     }
 }
 
-impl Entry<'_> {
+impl ValueEntry<'_> {
     fn has_key(&self, key: &str) -> bool {
         self.key.is_some_and(|written| {
             if written.starts_with('"') || written.starts_with("r\"") || written.starts_with("r#") {
@@ -170,25 +170,25 @@ fn without_raw_prefix(name: &str) -> &str {
 }
 
 /// The entries up to the bracket that closes them; the scanner stands behind the opening one.
-fn read_entries<'a>(text: &'a str, mut scanner: Scanner<'a>) -> Vec<Entry<'a>> {
+fn read_entries<'a>(text: &'a str, mut scanner: Scanner<'a>) -> Vec<ValueEntry<'a>> {
     let mut entries = Vec::new();
     loop {
         let start = scanner.token_start();
-        let mut entry = Entry { key: None, offset: start };
+        let mut entry = ValueEntry { key: None, offset: start };
         let mut end = start;
         let mut depth = 0_usize;
         let last = loop {
             match scanner.token() {
                 None => break true,
-                Some((Kind::Close, _)) if depth == 0 => break true,
-                Some((Kind::Comma, _)) if depth == 0 => break false,
-                Some((Kind::Colon, _)) if depth == 0 && entry.key.is_none() => {
-                    entry = Entry { key: Some(&text[start..end]), offset: scanner.token_start() };
+                Some((TokenKind::Close, _)) if depth == 0 => break true,
+                Some((TokenKind::Comma, _)) if depth == 0 => break false,
+                Some((TokenKind::Colon, _)) if depth == 0 && entry.key.is_none() => {
+                    entry = ValueEntry { key: Some(&text[start..end]), offset: scanner.token_start() };
                 }
                 Some((kind, range)) => {
                     match kind {
-                        Kind::Open(_) => depth += 1,
-                        Kind::Close => depth -= 1,
+                        TokenKind::Open(_) => depth += 1,
+                        TokenKind::Close => depth -= 1,
                         _ => {}
                     }
                     end = range.end;

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// What a token is; the text is taken from its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum TokenKind {
     Open(char),
     Close,
     Comma,
@@ -38,14 +38,14 @@ impl<'a> Scanner<'a> {
     }
 
     /// Reads the next token, or `None` at the end of the text.
-    pub(super) fn token(&mut self) -> Option<(Kind, Range<usize>)> {
+    pub(super) fn token(&mut self) -> Option<(TokenKind, Range<usize>)> {
         self.skip_blanks();
         let start = self.at;
         let kind = match self.rest().chars().next()? {
-            c @ ('(' | '[' | '{') => self.take(1, Kind::Open(c)),
-            ')' | ']' | '}' => self.take(1, Kind::Close),
-            ',' => self.take(1, Kind::Comma),
-            ':' => self.take(1, Kind::Colon),
+            c @ ('(' | '[' | '{') => self.take(1, TokenKind::Open(c)),
+            ')' | ']' | '}' => self.take(1, TokenKind::Close),
+            ',' => self.take(1, TokenKind::Comma),
+            ':' => self.take(1, TokenKind::Colon),
             '"' => self.string(1),
             '\'' => self.character(1),
             c => self.word(c),
@@ -57,7 +57,7 @@ impl<'a> Scanner<'a> {
         &self.text[self.at..]
     }
 
-    fn take(&mut self, bytes: usize, kind: Kind) -> Kind {
+    fn take(&mut self, bytes: usize, kind: TokenKind) -> TokenKind {
         self.at += bytes;
         kind
     }
@@ -129,23 +129,23 @@ impl<'a> Scanner<'a> {
     }
 
     /// Skips a string whose opening quote ends `open` bytes ahead.
-    fn string(&mut self, open: usize) -> Kind {
+    fn string(&mut self, open: usize) -> TokenKind {
         self.at += open;
         while let Some(found) = self.rest().find(['"', '\\']) {
             self.at += found;
             let escape = self.rest().starts_with('\\');
             self.at += 1;
             if !escape {
-                return Kind::Quoted;
+                return TokenKind::Quoted;
             }
             self.at += self.rest().chars().next().map_or(0, char::len_utf8);
         }
         self.at = self.text.len();
-        Kind::Quoted
+        TokenKind::Quoted
     }
 
     /// Skips a character whose opening quote ends `open` bytes ahead; a lone quote is a word of its own.
-    fn character(&mut self, open: usize) -> Kind {
+    fn character(&mut self, open: usize) -> TokenKind {
         let inside = &self.rest()[open..];
         let mut chars = inside.char_indices();
         let first = chars.next();
@@ -158,19 +158,19 @@ impl<'a> Scanner<'a> {
             None => None,
         };
         match close {
-            Some((at, _)) => self.take(open + at + 1, Kind::Quoted),
-            None => self.take(open, Kind::Word),
+            Some((at, _)) => self.take(open + at + 1, TokenKind::Quoted),
+            None => self.take(open, TokenKind::Word),
         }
     }
 
     /// Reads an identifier or number, or what follows the prefixes `r`, `b` and `br`; any other sign alone.
-    fn word(&mut self, first: char) -> Kind {
+    fn word(&mut self, first: char) -> TokenKind {
         let rest = self.rest();
         let in_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-');
         let length = rest.find(|c| !in_word(c)).unwrap_or(rest.len());
         let (word, after) = rest.split_at(length);
         if word.is_empty() {
-            return self.take(first.len_utf8(), Kind::Word);
+            return self.take(first.len_utf8(), TokenKind::Word);
         }
         if word == "b" && after.starts_with('"') {
             return self.string(2);
@@ -182,15 +182,15 @@ impl<'a> Scanner<'a> {
             let hashes = after.len() - after.trim_start_matches('#').len();
             if after[hashes..].starts_with('"') {
                 self.skip_past(length + hashes + 1, &format!("\"{}", "#".repeat(hashes)));
-                return Kind::Quoted;
+                return TokenKind::Quoted;
             }
             if hashes == 1 {
                 let name = &after[1..];
                 let name_length = name.find(|c| !in_word(c)).unwrap_or(name.len());
-                return self.take(length + 1 + name_length, Kind::Word);
+                return self.take(length + 1 + name_length, TokenKind::Word);
             }
         }
-        self.take(length, Kind::Word)
+        self.take(length, TokenKind::Word)
     }
 }
 

@@ -48,12 +48,12 @@ pub struct Source {
     pub path: PathBuf,
     /// What is in it.
     pub text: String,
-    overlay: Option<Overlay>,
+    layer: Option<Layer>,
 }
 
 /// A part of a text that is laid over the rest.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Overlay {
+struct Layer {
     at: Field,
     /// Lists of the whole that go on in the part, and how many entries the whole has of each.
     continued: Vec<(&'static str, usize)>,
@@ -62,7 +62,7 @@ struct Overlay {
 impl Source {
     /// A text that is already at hand; `path` only names it.
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Source {
-        Source { path: path.into(), text: text.into(), overlay: None }
+        Source { path: path.into(), text: text.into(), layer: None }
     }
 
     /// The same text with the part of it that stands at `at` laid over the rest: later errors about a field point into the
@@ -70,7 +70,7 @@ impl Source {
     /// others.
     #[must_use]
     pub fn overlaid(&self, at: Field, continued: Vec<(&'static str, usize)>) -> Source {
-        Source { overlay: Some(Overlay { at, continued }), ..self.clone() }
+        Source { layer: Some(Layer { at, continued }), ..self.clone() }
     }
 
     /// Reads a file, without the byte order mark that some editors write.
@@ -160,7 +160,7 @@ impl Source {
 
     /// Where a field is written: in the part that is laid over the rest if it is given there.
     fn written(&self, field: &Field) -> Field {
-        let Some(Overlay { at, continued }) = &self.overlay else { return field.clone() };
+        let Some(Layer { at, continued }) = &self.layer else { return field.clone() };
         if let [Segment::Key(list), Segment::Index(place), inside @ ..] = field.segments()
             && let Some((_, count)) = continued.iter().find(|(name, _)| name == list)
         {

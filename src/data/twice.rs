@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use ron::Value;
 
 use super::field::{Field, Segment};
-use super::scan::{Kind, Scanner};
+use super::scan::{Scanner, TokenKind};
 
 /// A name at its second place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,15 +28,15 @@ pub(super) fn given_twice(text: &str) -> Option<Twice> {
     while let Some((kind, range)) = scanner.token() {
         let inside = open.last_mut();
         match (kind, inside) {
-            (Kind::Open(bracket), _) => {
+            (TokenKind::Open(bracket), _) => {
                 let variant = word.take().filter(|_| bracket == '(' && !open.is_empty());
                 open.push(Brackets { variant, ..Brackets::new(scanner.token_start()) });
             }
-            (Kind::Close, _) => {
+            (TokenKind::Close, _) => {
                 open.pop();
             }
-            (Kind::Comma, Some(inside)) => inside.next(scanner.token_start()),
-            (Kind::Colon, Some(inside)) if inside.key.is_none() => {
+            (TokenKind::Comma, Some(inside)) => inside.next(scanner.token_start()),
+            (TokenKind::Colon, Some(inside)) if inside.key.is_none() => {
                 let name = name(&text[inside.start..end.max(inside.start)]);
                 let second = inside.start;
                 let first = *inside.names.entry(name.clone()).or_insert(second);
@@ -48,7 +48,7 @@ pub(super) fn given_twice(text: &str) -> Option<Twice> {
             }
             _ => {}
         }
-        word = (kind == Kind::Word).then(|| &text[range.clone()]);
+        word = (kind == TokenKind::Word).then(|| &text[range.clone()]);
         end = range.end;
     }
     None

@@ -12,7 +12,7 @@ use super::interrupt::Interrupt;
 use super::kinds;
 use super::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, AssetKind, DataError, Field};
-use crate::lab::scenario::{Report, ScenarioPlan, ScenarioRef, junit};
+use crate::lab::scenario::{ScenarioPlan, ScenarioRef, ScenarioReport, junit};
 
 #[derive(Args, Debug, Default)]
 pub(super) struct CheckCommand {
@@ -36,7 +36,7 @@ struct Findings<'a, W> {
     faults: usize,
     /// The scenarios' names, and whose they are.
     scenarios: BTreeMap<String, ScenarioRef>,
-    reports: Vec<Report>,
+    reports: Vec<ScenarioReport>,
 }
 
 impl CheckCommand {
@@ -150,7 +150,7 @@ impl<W: Write> Findings<'_, W> {
         if counts.is_empty() { String::new() } else { format!("{}: ", counts.join(", ")) }
     }
 
-    fn report(&mut self, report: Report) -> io::Result<()> {
+    fn report(&mut self, report: ScenarioReport) -> io::Result<()> {
         writeln!(self.out, "{report}")?;
         self.reports.push(report);
         Ok(())

@@ -208,7 +208,7 @@ impl PlayerFile {
 #[serde(deny_unknown_fields)]
 pub struct BallFile {
     /// Its places, m.
-    pub at: Places,
+    pub at: BallPlaces,
     /// m/s
     #[serde(default)]
     pub velocity: Vec2,
@@ -217,27 +217,27 @@ pub struct BallFile {
 /// One place, or the crossings of a grid: the scenario is played at each of them, with each of its seeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a place, such as (1, 2), or a grid, such as (x: [0, 1], y: [-2, 2])")]
-pub enum Places {
+pub enum BallPlaces {
     /// One place.
     One(Vec2),
     /// Every x with every y.
     Grid { x: Vec<f32>, y: Vec<f32> },
 }
 
-impl Places {
+impl BallPlaces {
     /// The number of places.
     pub fn count(&self) -> usize {
         match self {
-            Places::One(_) => 1,
-            Places::Grid { x, y } => x.len().saturating_mul(y.len()),
+            BallPlaces::One(_) => 1,
+            BallPlaces::Grid { x, y } => x.len().saturating_mul(y.len()),
         }
     }
 
     /// Column by column from the grid's first x.
     pub fn to_vec(&self) -> Vec<Vec2> {
         match self {
-            Places::One(place) => vec![*place],
-            Places::Grid { x, y } => x.iter().flat_map(|x| y.iter().map(|y| Vec2::new(*x, *y))).collect(),
+            BallPlaces::One(place) => vec![*place],
+            BallPlaces::Grid { x, y } => x.iter().flat_map(|x| y.iter().map(|y| Vec2::new(*x, *y))).collect(),
         }
     }
 }
@@ -290,8 +290,8 @@ mod tests {
 
     #[test]
     fn the_ball_is_at_one_place_or_at_the_crossings_of_a_grid() {
-        assert_eq!(parsed::<Places>("(1, -2)").to_vec(), [Vec2::new(1.0, -2.0)]);
-        let grid = parsed::<Places>("(x: [0, 1.5], y: [-2, 2])").to_vec();
+        assert_eq!(parsed::<BallPlaces>("(1, -2)").to_vec(), [Vec2::new(1.0, -2.0)]);
+        let grid = parsed::<BallPlaces>("(x: [0, 1.5], y: [-2, 2])").to_vec();
         let crossings = [(0.0, -2.0), (0.0, 2.0), (1.5, -2.0), (1.5, 2.0)];
         assert_eq!(grid, crossings.map(|(x, y)| Vec2::new(x, y)));
         let error = trouble(&EXAMPLE.replace("at: (-1.5, 0.5)", "at: (x: [0])"));

@@ -50,23 +50,23 @@ pub struct Failure {
 #[derive(Clone, Debug)]
 struct Case {
     words: String,
-    kind: Kind,
+    kind: Demand,
     /// The ticks that count, both included.
     first: u64,
     last: u64,
     watch: Watch,
-    state: State,
+    state: CaseState,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum Demand {
     Eventually,
     Always,
     Never,
 }
 
 #[derive(Clone, Debug)]
-enum State {
+enum CaseState {
     Open,
     Met,
     Failed(Failure),
@@ -89,23 +89,23 @@ impl Judge {
     pub fn observe(&mut self, scene: &Scene) {
         self.tick = scene.tick;
         let seconds = self.seconds();
-        for case in self.cases.iter_mut().filter(|case| matches!(case.state, State::Open)) {
+        for case in self.cases.iter_mut().filter(|case| matches!(case.state, CaseState::Open)) {
             case.observe(scene, seconds);
         }
     }
 
     /// Whether nothing can change any more; true after the scenario's last tick at the latest.
     pub fn is_decided(&self) -> bool {
-        !self.cases.iter().any(|case| matches!(case.state, State::Open))
+        !self.cases.iter().any(|case| matches!(case.state, CaseState::Open))
     }
 
     /// Each expectation in plain words with how it stands: met, failed or, as `None`, still open.
     pub fn standings(&self) -> impl Iterator<Item = (&str, Option<bool>)> {
         self.cases.iter().map(|case| {
             let met = match case.state {
-                State::Open => None,
-                State::Met => Some(true),
-                State::Failed(_) => Some(false),
+                CaseState::Open => None,
+                CaseState::Met => Some(true),
+                CaseState::Failed(_) => Some(false),
             };
             (case.words.as_str(), met)
         })
@@ -114,9 +114,9 @@ impl Judge {
     /// The verdict as it stands: what is still open has failed.
     pub fn verdict(&self) -> Verdict {
         let failures = self.cases.iter().filter_map(|case| match &case.state {
-            State::Met => None,
-            State::Failed(failure) => Some(failure.clone()),
-            State::Open => Some(Failure {
+            CaseState::Met => None,
+            CaseState::Failed(failure) => Some(failure.clone()),
+            CaseState::Open => Some(Failure {
                 expectation: case.words.clone(),
                 tick: self.tick,
                 seconds: self.seconds(),
@@ -138,14 +138,14 @@ impl Case {
         let span = |from: f32, until: Option<f32>| (at(from), until.map_or(end, at).min(end));
         let (kind, (first, last)) = match expectation {
             Expectation::Eventually { within, after, .. } => {
-                (Kind::Eventually, span(*after, Some(after + within)))
+                (Demand::Eventually, span(*after, Some(after + within)))
             }
-            Expectation::Always { from, until, .. } => (Kind::Always, span(*from, *until)),
-            Expectation::Never { from, until, .. } => (Kind::Never, span(*from, *until)),
-            Expectation::Finally { .. } => (Kind::Always, (end, end)),
+            Expectation::Always { from, until, .. } => (Demand::Always, span(*from, *until)),
+            Expectation::Never { from, until, .. } => (Demand::Never, span(*from, *until)),
+            Expectation::Finally { .. } => (Demand::Always, (end, end)),
         };
         let watch = Watch::new(expectation.what(), dt);
-        Case { words: expectation.to_string(), kind, first, last, watch, state: State::Open }
+        Case { words: expectation.to_string(), kind, first, last, watch, state: CaseState::Open }
     }
 
     fn observe(&mut self, scene: &Scene, seconds: f64) {
@@ -155,16 +155,16 @@ impl Case {
         }
         let is_last = scene.tick >= self.last;
         self.state = match (self.kind, holds) {
-            (Kind::Eventually, true) => State::Met,
-            (Kind::Eventually, false) if !is_last => State::Open,
-            (Kind::Always, true) | (Kind::Never, false) => {
+            (Demand::Eventually, true) => CaseState::Met,
+            (Demand::Eventually, false) if !is_last => CaseState::Open,
+            (Demand::Always, true) | (Demand::Never, false) => {
                 if is_last {
-                    State::Met
+                    CaseState::Met
                 } else {
-                    State::Open
+                    CaseState::Open
                 }
             }
-            _ => State::Failed(Failure {
+            _ => CaseState::Failed(Failure {
                 expectation: self.words.clone(),
                 tick: scene.tick,
                 seconds,

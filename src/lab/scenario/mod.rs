@@ -1,7 +1,7 @@
 //! Scenarios: small scenes with a script and expectations, by which teamwork is tested.
 //!
 //! A file in `assets/scenarios` is parsed into a [`ScenarioFile`] and checked into a [`Scenario`]. While it is played, a
-//! [`Judge`] looks at the [`Scene`] of each tick; its [`Verdict`]s over all seeds make a [`Report`].
+//! [`Judge`] looks at the [`Scene`] of each tick; its [`Verdict`]s over all seeds make a [`ScenarioReport`].
 
 mod check;
 mod condition;
@@ -18,12 +18,12 @@ mod stage;
 mod watch;
 mod words;
 
-pub use check::{Known, KnownTeam, Player, Scenario, check};
+pub use check::{Known, KnownTeam, Scenario, ScenarioPlayer, check};
 pub use condition::{Area, Condition, Expectation, Packets, Thing};
 pub use event::{Dependency, Event, TimedEvent};
-pub use file::{BallFile, Places, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
+pub use file::{BallFile, BallPlaces, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
 pub use judge::{Failure, Judge, Verdict};
 pub use plan::{ScenarioPlan, ScenarioRef};
-pub use report::{Report, Run, junit};
+pub use report::{ScenarioReport, ScenarioRun, junit};
 pub use run::observe;
 pub use scene::{RobotScene, Scene};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::check::{Known, KnownTeam, Player, Scenario, check};
+use super::check::{Known, KnownTeam, Scenario, ScenarioPlayer, check};
 use super::event::{Dependency, Event};
 use super::file::{Referee, ScenarioFile, SideFile};
 use crate::clock::{Clock, TICK_HZ};
@@ -252,7 +252,7 @@ fn known(team: &TeamPlan) -> KnownTeam<'_> {
 }
 
 /// The roles that a scenario gives to the players of a side, by number.
-fn cast(players: &[Player]) -> Vec<(u8, String)> {
+fn cast(players: &[ScenarioPlayer]) -> Vec<(u8, String)> {
     players.iter().filter_map(|player| Some((player.id.number, player.role.clone()?))).collect()
 }
 
@@ -262,7 +262,7 @@ fn role(strategy: &Strategy, name: &str) -> Option<RoleIndex> {
 }
 
 fn situation(scenario: &Scenario) -> Situation {
-    let placed = |player: &Player| (player.id, Placed { pose: player.pose, on: player.on });
+    let placed = |player: &ScenarioPlayer| (player.id, Placed { pose: player.pose, on: player.on });
     Situation {
         refereed: scenario.referee == Referee::Whole,
         robots: scenario.players().map(placed).collect(),

@@ -13,7 +13,7 @@ use crate::data::in_one_line;
 
 /// All runs of one scenario.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct ScenarioReport {
     /// The file's name, and the variant's.
     pub file: String,
     pub variant: Option<String>,
@@ -24,14 +24,14 @@ pub struct Report {
     /// With how many seeds it may fail, at each place of the ball.
     pub may_fail: usize,
     /// Place by place.
-    pub runs: Vec<Run>,
+    pub runs: Vec<ScenarioRun>,
     /// Whether it was stopped before all of its runs were played.
     pub interrupted: bool,
 }
 
 /// A scenario played with one seed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Run {
+pub struct ScenarioRun {
     /// Where the ball started, in the pitch frame.
     pub place: Vec2,
     /// The seed.
@@ -43,15 +43,15 @@ pub struct Run {
 }
 
 /// The runs with the ball at one place.
-struct PlaceRuns<'a>(&'a [Run]);
+struct PlaceRuns<'a>(&'a [ScenarioRun]);
 
 impl PlaceRuns<'_> {
-    fn failed(&self) -> impl Iterator<Item = &Run> {
+    fn failed(&self) -> impl Iterator<Item = &ScenarioRun> {
         self.0.iter().filter(|run| !run.verdict.passed())
     }
 }
 
-impl Report {
+impl ScenarioReport {
     /// Whether the scenario came out as it must. One that was not played did not.
     pub fn passed(&self) -> bool {
         let failed = self.places().any(|place| place.failed().count() > self.may_fail);
@@ -65,7 +65,7 @@ impl Report {
         self.runs.chunk_by(|a, b| a.place == b.place).map(PlaceRuns)
     }
 
-    fn failed(&self) -> impl Iterator<Item = &Run> {
+    fn failed(&self) -> impl Iterator<Item = &ScenarioRun> {
         self.runs.iter().filter(|run| !run.verdict.passed())
     }
 
@@ -99,7 +99,7 @@ impl Report {
 
 /// `ok    <name> (10 seeds)`, or `FAIL  <name>: 3 of 10 seeds` with a line for each expectation that was not met; no line
 /// break at the end. With the ball at several places there is a line for each at which it failed, be it as often as it may.
-impl Display for Report {
+impl Display for ScenarioReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let (title, played) = (self.title(), self.played());
         let failed = self.failed().count();
@@ -119,7 +119,7 @@ impl Display for Report {
         if self.places().nth(1).is_some() {
             return self.places().try_for_each(|place| place.write_failed_seeds(f));
         }
-        let failed: Vec<&Run> = self.failed().collect();
+        let failed: Vec<&ScenarioRun> = self.failed().collect();
         write_failures(f, &failed, self.runs.len())
     }
 }
@@ -135,7 +135,7 @@ impl PlaceRuns<'_> {
 }
 
 /// A line for each expectation that was not met in these of so many runs: with which seeds, and why with the first of them.
-fn write_failures(f: &mut Formatter<'_>, failed: &[&Run], played: usize) -> fmt::Result {
+fn write_failures(f: &mut Formatter<'_>, failed: &[&ScenarioRun], played: usize) -> fmt::Result {
     let all = || failed.iter().flat_map(|run| run.verdict.failures.iter().map(|failure| (run.seed, failure)));
     let mut told: Vec<&str> = Vec::new();
     for (first, failure) in all() {
@@ -190,13 +190,13 @@ fn xml(text: &str) -> String {
 ///
 /// # Errors
 /// If the XML cannot be written.
-pub fn junit(reports: &[Report]) -> Result<String, SerializeError> {
+pub fn junit(reports: &[ScenarioReport]) -> Result<String, SerializeError> {
     let mut all = quick_junit::Report::new("touchline scenarios");
     all.add_test_suites(reports.iter().map(suite));
     all.to_string()
 }
 
-fn suite(report: &Report) -> TestSuite {
+fn suite(report: &ScenarioReport) -> TestSuite {
     let mut suite = TestSuite::new(xml(&report.title()));
     if report.interrupted && (report.without.is_some() || report.runs.is_empty()) {
         suite.add_test_case(TestCase::new("all seeds", TestCaseStatus::skipped()));
@@ -216,7 +216,7 @@ fn suite(report: &Report) -> TestSuite {
     suite
 }
 
-fn place_case(report: &Report, place: &PlaceRuns) -> TestCase {
+fn place_case(report: &ScenarioReport, place: &PlaceRuns) -> TestCase {
     let failures = place
         .failed()
         .flat_map(|run| run.verdict.failures.iter().map(|failure| format!("seed {}, {failure}", run.seed)));
@@ -225,7 +225,7 @@ fn place_case(report: &Report, place: &PlaceRuns) -> TestCase {
     case(report, &name, failure, place.0.iter().map(|run| run.took).sum())
 }
 
-fn case(report: &Report, name: &str, failure: Option<String>, took: Duration) -> TestCase {
+fn case(report: &ScenarioReport, name: &str, failure: Option<String>, took: Duration) -> TestCase {
     let status = match failure {
         None => TestCaseStatus::success(),
         Some(failure) => {

@@ -10,7 +10,7 @@ use super::check::Scenario;
 use super::event::Dependency;
 use super::judge::{Judge, Verdict};
 use super::plan::ScenarioPlan;
-use super::report::{Report, Run};
+use super::report::{ScenarioReport, ScenarioRun};
 use super::scene::{RobotScene, Scene};
 use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
@@ -26,22 +26,22 @@ use crate::world::referee::MatchState;
 
 impl ScenarioPlan {
     /// Plays the scenario with the ball at each of its places and with each of its seeds.
-    pub fn run(&self, without: Option<Dependency>) -> Report {
+    pub fn run(&self, without: Option<Dependency>) -> ScenarioReport {
         self.run_until(without, &|| false)
     }
 
     /// Plays the scenario with each of its seeds, or until it is to stop: then the run of that moment does not count.
-    pub fn run_until(&self, without: Option<Dependency>, stop: &dyn Fn() -> bool) -> Report {
+    pub fn run_until(&self, without: Option<Dependency>, stop: &dyn Fn() -> bool) -> ScenarioReport {
         let plan = without.map_or_else(|| self.clone(), |dependency| self.without(dependency));
         let Scenario { places, seeds, .. } = &self.scenario;
         let runs = places.iter().flat_map(|place| seeds.iter().map(|seed| (*place, *seed)));
         let runs = runs.map_while(|(place, seed)| {
             let start = Instant::now();
             let verdict = plan.play_until(place, seed, stop)?;
-            Some(Run { place, seed, verdict, took: start.elapsed() })
+            Some(ScenarioRun { place, seed, verdict, took: start.elapsed() })
         });
-        let runs: Vec<Run> = runs.collect();
-        Report {
+        let runs: Vec<ScenarioRun> = runs.collect();
+        ScenarioReport {
             file: self.origin.to_string(),
             variant: self.origin.variant.clone(),
             name: self.scenario.name.clone(),

@@ -56,8 +56,8 @@ impl Display for Expectation {
                 write!(f, "between {after} s and {until} s")?;
             }
             Expectation::Eventually { within, .. } => write!(f, "by {within} s")?,
-            Expectation::Always { from, until, .. } => write!(f, "always{}", Span(*from, *until))?,
-            Expectation::Never { from, until, .. } => write!(f, "never{}", Span(*from, *until))?,
+            Expectation::Always { from, until, .. } => write!(f, "always{}", TimeSpan(*from, *until))?,
+            Expectation::Never { from, until, .. } => write!(f, "never{}", TimeSpan(*from, *until))?,
             Expectation::Finally { .. } => f.write_str("at the end")?,
         }
         write!(f, ": {}", self.what())?;
@@ -65,15 +65,15 @@ impl Display for Expectation {
     }
 }
 
-struct Span(f32, Option<f32>);
+struct TimeSpan(f32, Option<f32>);
 
-impl Display for Span {
+impl Display for TimeSpan {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match *self {
-            Span(from, Some(until)) if from > 0.0 => write!(f, " from {from} s to {until} s"),
-            Span(_, Some(until)) => write!(f, " until {until} s"),
-            Span(from, None) if from > 0.0 => write!(f, " from {from} s on"),
-            Span(..) => Ok(()),
+            TimeSpan(from, Some(until)) if from > 0.0 => write!(f, " from {from} s to {until} s"),
+            TimeSpan(_, Some(until)) => write!(f, " until {until} s"),
+            TimeSpan(from, None) if from > 0.0 => write!(f, " from {from} s on"),
+            TimeSpan(..) => Ok(()),
         }
     }
 }
@@ -129,18 +129,18 @@ impl Display for Condition {
             Condition::ConfigurationsAgree(team) => {
                 write!(f, "the robots of {team} agree on their configuration")
             }
-            Condition::All(parts) => f.write_str(&list(parts.iter().map(Part), " and ")),
-            Condition::Any(parts) => f.write_str(&list(parts.iter().map(Part), " or ")),
+            Condition::All(parts) => f.write_str(&list(parts.iter().map(Bracketed), " and ")),
+            Condition::Any(parts) => f.write_str(&list(parts.iter().map(Bracketed), " or ")),
             Condition::Not(what) => write!(f, "not ({what})"),
-            Condition::For { seconds, what } => write!(f, "{} for {seconds} s", Part(what)),
+            Condition::For { seconds, what } => write!(f, "{} for {seconds} s", Bracketed(what)),
         }
     }
 }
 
 /// A condition inside another one: in brackets if it has parts itself.
-struct Part<'a>(&'a Condition);
+struct Bracketed<'a>(&'a Condition);
 
-impl Display for Part<'_> {
+impl Display for Bracketed<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.0 {
             Condition::All(_) | Condition::Any(_) | Condition::RolesAre(..) => write!(f, "({})", self.0),

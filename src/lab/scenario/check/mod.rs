@@ -12,7 +12,7 @@ use bevy::prelude::Vec2;
 
 use super::condition::Expectation;
 use super::event::{Dependency, Event, TimedEvent};
-use super::file::{Places, PlayerFile, Referee, ScenarioFile, SideFile};
+use super::file::{BallPlaces, PlayerFile, Referee, ScenarioFile, SideFile};
 use super::watch::ticks;
 use crate::comms::radio::FaultRule;
 use crate::data::{Bound, DataError, Field, Source, Validate, check_count, no_such};
@@ -21,7 +21,7 @@ use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::rng::LARGEST_SEED;
 use crate::robot::RobotKind;
-use places::Standing;
+use crate::world::physics::Footprint;
 
 type Result<T> = std::result::Result<T, DataError>;
 
@@ -39,7 +39,7 @@ pub struct Scenario {
     pub seconds: f32,
     pub referee: Referee,
     /// The robots that take part in the order of their numbers, home first.
-    pub sides: [Option<Vec<Player>>; 2],
+    pub sides: [Option<Vec<ScenarioPlayer>>; 2],
     /// Where the ball starts, in the pitch frame: one run for each, with each seed.
     pub places: Vec<Vec2>,
     /// Of the ball at the start, m/s in the pitch frame.
@@ -63,14 +63,14 @@ impl Scenario {
     }
 
     /// All robots that take part, in order.
-    pub fn players(&self) -> impl Iterator<Item = &Player> {
+    pub fn players(&self) -> impl Iterator<Item = &ScenarioPlayer> {
         self.sides.iter().flatten().flatten()
     }
 }
 
 /// A robot that takes part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Player {
+pub struct ScenarioPlayer {
     pub id: RobotId,
     /// In the pitch frame.
     pub pose: Pose,
@@ -182,7 +182,15 @@ struct Checker<'a> {
     seconds: f32,
     /// Those that take part, as far as the file has been read.
     robots: Vec<RobotId>,
-    standing: Vec<Standing>,
+    standing: Vec<PlacedBody>,
+}
+
+/// A body, where it stands, and where the file says so.
+struct PlacedBody {
+    name: String,
+    footprint: Footprint,
+    pose: Pose,
+    field: Field,
 }
 
 impl Checker<'_> {
@@ -236,7 +244,7 @@ impl Checker<'_> {
         }
     }
 
-    fn places(&self, places: &Places, at: &Field) -> Result<Vec<Vec2>> {
+    fn places(&self, places: &BallPlaces, at: &Field) -> Result<Vec<Vec2>> {
         self.source.locate(at, check_count("", "the number of places", places.count(), 1..=MOST_PLACES))?;
         let known = places.to_vec();
         for (i, place) in known.iter().enumerate() {
@@ -248,7 +256,7 @@ impl Checker<'_> {
         Ok(known)
     }
 
-    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Vec<Player>> {
+    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Vec<ScenarioPlayer>> {
         let players = match &side.players {
             Some(players) if players.is_empty() => {
                 return self.fault(&at.key("players"), "needs at least one robot");
@@ -283,7 +291,13 @@ impl Checker<'_> {
     }
 
     /// A player that the file has at `at`, and its place at `place`.
-    fn player(&mut self, team: Team, player: &PlayerFile, at: &Field, place: &Field) -> Result<Player> {
+    fn player(
+        &mut self,
+        team: Team,
+        player: &PlayerFile,
+        at: &Field,
+        place: &Field,
+    ) -> Result<ScenarioPlayer> {
         let id = RobotId::new(team, player.number);
         let players = self.known.teams[team.index()].kick_off.len();
         if usize::from(player.number) >= players {
@@ -302,7 +316,7 @@ impl Checker<'_> {
         self.robots.push(id);
         let pose = Pose { position: player.at, heading: player.facing.to_radians() };
         self.stands(id, pose, place);
-        Ok(Player { id, pose, role: player.role.clone(), on: !player.off })
+        Ok(ScenarioPlayer { id, pose, role: player.role.clone(), on: !player.off })
     }
 
     fn rule(&self, rule: &FaultRule, at: &Field) -> Result<()> {

@@ -2,26 +2,18 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Checker, Result};
+use super::{Checker, PlacedBody, Result};
 use crate::data::Field;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
 use crate::world::physics::Footprint;
-
-/// A body, where it stands, and where the file says so.
-pub(super) struct Standing {
-    name: String,
-    footprint: Footprint,
-    pose: Pose,
-    field: Field,
-}
 
 impl Checker<'_> {
     /// Adds a robot, which the file places at `at`.
     pub(super) fn stands(&mut self, robot: RobotId, pose: Pose, at: &Field) {
         let Some(kind) = self.known.teams[robot.team.index()].kind else { return };
         let (name, footprint) = (robot.to_string(), Footprint::of_robot(kind));
-        self.standing.push(Standing { name, footprint, pose, field: at.clone() });
+        self.standing.push(PlacedBody { name, footprint, pose, field: at.clone() });
     }
 
     /// Names, positions and headings are sound by now; the ball starts at any of these places.
@@ -33,12 +25,12 @@ impl Checker<'_> {
         places.iter().try_for_each(|place| self.finds_room(&self.ball_at(*place), &self.standing, &walls))
     }
 
-    fn finds_room(&self, body: &Standing, others: &[Standing], walls: &Footprint) -> Result<()> {
+    fn finds_room(&self, body: &PlacedBody, others: &[PlacedBody], walls: &Footprint) -> Result<()> {
         let (name, at) = (&body.name, body.pose.position);
         if body.footprint.overlaps(body.pose, walls, Pose::default()) {
             return self.fault(&body.field, format!("{name} at ({}, {}) would stand in a wall", at.x, at.y));
         }
-        let in_body = |other: &&Standing| body.footprint.overlaps(body.pose, &other.footprint, other.pose);
+        let in_body = |other: &&PlacedBody| body.footprint.overlaps(body.pose, &other.footprint, other.pose);
         let Some(other) = others.iter().find(in_body) else { return Ok(()) };
         let there = other.pose.position;
         let message = format!(
@@ -48,8 +40,8 @@ impl Checker<'_> {
         self.fault(&body.field, message)
     }
 
-    fn ball_at(&self, position: Vec2) -> Standing {
-        Standing {
+    fn ball_at(&self, position: Vec2) -> PlacedBody {
+        PlacedBody {
             name: "the ball".into(),
             footprint: Footprint::of_ball(self.known.ball),
             pose: Pose { position, heading: 0.0 },

@@ -14,7 +14,7 @@ fn failure(tick: u64) -> Failure {
     }
 }
 
-fn report(failing: &[u64], without: Option<Dependency>) -> Report {
+fn report(failing: &[u64], without: Option<Dependency>) -> ScenarioReport {
     let runs = (1..=3).map(|seed| {
         let failures = if failing.contains(&seed) { vec![failure(300)] } else { Vec::new() };
         run(Vec2::ZERO, seed, failures)
@@ -22,17 +22,17 @@ fn report(failing: &[u64], without: Option<Dependency>) -> Report {
     of(without, 0, runs.collect())
 }
 
-fn run(place: Vec2, seed: u64, failures: Vec<Failure>) -> Run {
-    Run { place, seed, verdict: Verdict { failures }, took: Duration::from_millis(1500) }
+fn run(place: Vec2, seed: u64, failures: Vec<Failure>) -> ScenarioRun {
+    ScenarioRun { place, seed, verdict: Verdict { failures }, took: Duration::from_millis(1500) }
 }
 
-fn of(without: Option<Dependency>, may_fail: usize, runs: Vec<Run>) -> Report {
+fn of(without: Option<Dependency>, may_fail: usize, runs: Vec<ScenarioRun>) -> ScenarioReport {
     let (file, name) = ("swap".into(), "A <swap> works".into());
-    Report { file, variant: None, name, without, may_fail, runs, interrupted: false }
+    ScenarioReport { file, variant: None, name, without, may_fail, runs, interrupted: false }
 }
 
 /// Two places and three seeds each; fails with so many of them.
-fn at_two_places(failing: [u64; 2], may_fail: usize) -> Report {
+fn at_two_places(failing: [u64; 2], may_fail: usize) -> ScenarioReport {
     let runs = [Vec2::ZERO, Vec2::new(1.0, -2.5)].into_iter().zip(failing).flat_map(|(place, failing)| {
         let failures = move |seed| if seed <= failing { vec![failure(300)] } else { Vec::new() };
         (1..=3).map(move |seed| run(place, seed, failures(seed)))
@@ -86,7 +86,7 @@ fn a_scenario_that_fails_alike_on_some_or_all_seeds_says_so_once() {
     let line = format!("FAIL  A <swap> works: 3 of 3 seeds\n      all 3 seeds, {REASON}");
     assert_eq!(all.to_string(), line);
     let template = all.runs[0].clone();
-    all.runs = (1..=30).map(|seed| Run { seed, ..template.clone() }).collect();
+    all.runs = (1..=30).map(|seed| ScenarioRun { seed, ..template.clone() }).collect();
     assert!(all.to_string().ends_with(&format!("\n      all 30 seeds, {REASON}")), "{all}");
     all.runs[4].verdict = Verdict::default();
     assert!(all.to_string().ends_with(&format!("\n      29 seeds, {REASON}")), "{all}");
@@ -146,7 +146,8 @@ fn junit_is_xml_whatever_a_name_holds() {
         run.verdict.failures[0].expectation = wild.clone();
         run.verdict.failures[0].reason = wild.clone();
     }
-    let xml = junit(&[report.clone(), Report { without: Some(Dependency::RoleSwap), ..report }]).unwrap();
+    let xml =
+        junit(&[report.clone(), ScenarioReport { without: Some(Dependency::RoleSwap), ..report }]).unwrap();
     let is_allowed =
         |c: char| matches!(u32::from(c), 0x9 | 0xA | 0xD | 0x20..=0xD7FF | 0xE000..=0xFFFD | 0x10000..);
     assert!(xml.chars().all(is_allowed), "{xml}");
