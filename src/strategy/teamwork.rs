@@ -170,7 +170,7 @@ impl Default for MessageTiming {
     }
 }
 
-impl Validate for Talk {
+impl Validate for MessageTiming {
     fn validate(&self) -> Result<(), Fault> {
         check_all([
             ("position_every", self.position_every, Bound::SECONDS.positive()),
