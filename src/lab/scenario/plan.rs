@@ -302,7 +302,9 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
         })),
         Event::Heal => Request::Radio(RadioChange::Heal),
         Event::Jam(jammed) => Request::Radio(RadioChange::Jam(*jammed)),
-        Event::Radio(name) => Request::Radio(RadioChange::Change(checked(&assets.file(AssetKind::Radio, name))?)),
+        Event::Radio(name) => {
+            Request::Radio(RadioChange::Change(checked(&assets.file(AssetKind::Radio, name))?))
+        }
         Event::Ball { at, velocity } => Request::Body(BodyChange::Ball { at: *at, velocity: *velocity }),
         Event::Push { robot, by } => Request::Body(BodyChange::Push { robot: *robot, by: *by }),
         Event::Kidnap { robot, to, facing } => {
