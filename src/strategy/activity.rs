@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::{Part, Play, RoleSpec, Strategy};
+use super::pieces::{Part, Play, RoleSpec, Strategy};
 use crate::geometry::Zone;
 
 /// Homebases from which a robot has looked around in vain since it knew the ball last, the latest last.

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::file::{KickOff, StrategyFile};
+use super::file::StrategyFile;
+use super::pieces::KickOff;
 use super::resolve::resolve;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path};
 

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::HomebaseRule;
 use super::language::{Feature, Point, Points, Schema};
+use super::pieces::{HomebaseRule, KickOff};
 use super::teamwork::TeamworkFile;
 use crate::geometry::Zone;
 
@@ -54,26 +54,6 @@ pub struct StrategyFile {
     pub roles: BTreeMap<String, RoleFile>,
     #[serde(default)]
     pub teamwork: TeamworkFile,
-}
-
-/// Where people put the robots for a kick-off, by number: x, y in the team frame, looking at the opponents' goal.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct KickOff {
-    /// When this team kicks off.
-    pub ours: Vec<Vec2>,
-    /// When the opponents do.
-    pub theirs: Vec<Vec2>,
-}
-
-impl KickOff {
-    pub(super) fn scaled(&self, scale: Vec2) -> KickOff {
-        KickOff { ours: stretched(&self.ours, scale), theirs: stretched(&self.theirs, scale) }
-    }
-}
-
-pub(super) fn stretched(places: &[Vec2], scale: Vec2) -> Vec<Vec2> {
-    places.iter().map(|place| *place * scale).collect()
 }
 
 /// Motor schemas by name, a weight beside each, and how they become one vector.

@@ -121,11 +121,12 @@ fn every_test_that_protocols_names_is_in_its_file() {
     }
 }
 
-/// The words that a file of the language has, as variants of its enums.
+/// The words that a file of the language has, as variants of its enums; the kind of a schema is no word.
 fn variants(path: &str) -> Vec<String> {
     let text = std::fs::read_to_string(root().join(path)).expect("the file can be read");
     let text = text.split("#[cfg(test)]").next().unwrap_or_default();
-    let enums = text.split("\npub enum ").skip(1).filter_map(|rest| rest.split("\n}").next());
+    let enums = text.split("\npub enum ").skip(1).filter(|rest| !rest.starts_with("SchemaKind"));
+    let enums = enums.filter_map(|rest| rest.split("\n}").next());
     let lines = enums.flat_map(|body| body.lines().skip(1)).filter_map(|line| line.strip_prefix("    "));
     let lines = lines.filter(|line| line.starts_with(char::is_uppercase));
     lines.filter_map(|line| line.split(|c: char| !c.is_alphanumeric()).next().map(str::to_owned)).collect()

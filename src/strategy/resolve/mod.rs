@@ -10,20 +10,20 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
 
-use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile, stretched};
+use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile};
 use super::language::Feature;
-use super::{
+use super::pieces::{
     Assemblage, Combination, HomebaseRule, Machine, Part, Play, RoleSpec, State, Strategy, SubRole, Term,
-    Transition, Turn,
+    Transition, Turn, stretched,
 };
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Zone;
 pub(super) use teamwork::Roles;
 
-type Result<T> = std::result::Result<T, DataError>;
+type Resolved<T> = Result<T, DataError>;
 
 /// Positions are stretched from the pitch that the file was written for to the one that is played on, of this size in metres.
-pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>) -> Result<Strategy> {
+pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>) -> Resolved<Strategy> {
     let root = Field::root();
     let scale = pitch.zip(file.pitch).map_or(Vec2::ONE, |(played, drawn)| played / drawn);
     let roles = Roles { names: file.roles.keys().map(String::as_str).collect(), source };
@@ -33,13 +33,13 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
     resolver.check_named_pieces()?;
     let assemblages = (file.assemblages.iter())
         .map(|(name, assemblage)| resolver.assemblage(name, assemblage, &root.key("assemblages").key(name)))
-        .collect::<Result<Vec<_>>>()?;
+        .collect::<Resolved<Vec<_>>>()?;
     let machines = (file.machines.iter())
         .map(|(name, machine)| resolver.machine(name, machine, &root.key("machines").key(name)))
-        .collect::<Result<Vec<_>>>()?;
+        .collect::<Resolved<Vec<_>>>()?;
     let roles = (file.roles.iter())
         .map(|(name, role)| resolver.role(name, role, &root.key("roles").key(name)))
-        .collect::<Result<Vec<_>>>()?;
+        .collect::<Resolved<Vec<_>>>()?;
     let players = resolver.players(&root.key("players"))?;
     resolver.kick_off(players.len())?;
     for (name, places) in &file.line_ups {
@@ -78,38 +78,38 @@ struct Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    fn fault<T>(&self, at: &Field, message: impl Into<String>) -> Result<T> {
+    fn fault<T>(&self, at: &Field, message: impl Into<String>) -> Resolved<T> {
         Err(self.source.error_at(at, message))
     }
 
     /// The place of a name among the keys of a map.
-    fn index<T>(&self, map: &BTreeMap<String, T>, what: &str, name: &str, at: &Field) -> Result<usize> {
+    fn index<T>(&self, map: &BTreeMap<String, T>, what: &str, name: &str, at: &Field) -> Resolved<usize> {
         match map.keys().position(|key| key == name) {
             Some(index) => Ok(index),
             None => self.fault(at, unknown(map, what, name)),
         }
     }
 
-    fn within(&self, value: f32, bound: Bound, at: &Field) -> Result<()> {
+    fn within(&self, value: f32, bound: Bound, at: &Field) -> Resolved<()> {
         self.source.within(at, value, bound)
     }
 
-    fn place(&self, place: Vec2, at: &Field) -> Result<()> {
+    fn place(&self, place: Vec2, at: &Field) -> Resolved<()> {
         self.source.vector_within(at, place, Bound::PLACE)
     }
 
-    fn sound_zone(&self, zone: Zone, at: &Field) -> Result<()> {
+    fn sound_zone(&self, zone: Zone, at: &Field) -> Resolved<()> {
         self.place(zone.min, &at.key("min"))?;
         self.place(zone.max, &at.key("max"))?;
         if zone.is_finite() { Ok(()) } else { self.fault(at, "its min must be below its max") }
     }
 
-    fn count(&self, what: &str, count: usize, most: usize, at: &Field) -> Result<()> {
+    fn count(&self, what: &str, count: usize, most: usize, at: &Field) -> Resolved<()> {
         self.source.locate(at, check_count("", &format!("the number of {what}"), count, 0..=most))
     }
 
     /// Checks one value inside others, and what is inside it.
-    fn nested(&mut self, at: &Field, check: impl FnOnce(&mut Self) -> Result<()>) -> Result<()> {
+    fn nested(&mut self, at: &Field, check: impl FnOnce(&mut Self) -> Resolved<()>) -> Resolved<()> {
         self.depth += 1;
         self.work += 1;
         if self.depth > DEEPEST {
@@ -131,7 +131,7 @@ impl Resolver<'_> {
     }
 
     /// Checks the pitch, and how many pieces there are.
-    fn check_sizes(&self) -> Result<()> {
+    fn check_sizes(&self) -> Resolved<()> {
         let (file, root) = (self.file, Field::root());
         if let Some(drawn) = file.pitch {
             self.source.vector_within(&root.key("pitch"), drawn, Bound::PITCH)?;
@@ -154,7 +154,7 @@ impl Resolver<'_> {
     }
 
     /// Checks what is named but perhaps never used.
-    fn check_named_pieces(&mut self) -> Result<()> {
+    fn check_named_pieces(&mut self) -> Resolved<()> {
         let (file, root) = (self.file, Field::root());
         for (name, zone) in &file.zones {
             self.sound_zone(*zone, &root.key("zones").key(name))?;
@@ -182,8 +182,8 @@ impl Resolver<'_> {
         what: &str,
         name: &str,
         at: &Field,
-        resolve: impl FnOnce(&mut Self, &mut T) -> Result<()>,
-    ) -> Result<T> {
+        resolve: impl FnOnce(&mut Self, &mut T) -> Resolved<()>,
+    ) -> Resolved<T> {
         let Some(definition) = map.get(name) else {
             return self.fault(at, unknown(map, what, name));
         };
@@ -198,13 +198,13 @@ impl Resolver<'_> {
         Ok(expanded)
     }
 
-    fn resolved_feature(&mut self, feature: &Feature, at: &Field) -> Result<Feature> {
+    fn resolved_feature(&mut self, feature: &Feature, at: &Field) -> Resolved<Feature> {
         let mut resolved = feature.clone();
         self.feature(&mut resolved, at)?;
         Ok(resolved)
     }
 
-    fn assemblage(&mut self, name: &str, file: &AssemblageFile, at: &Field) -> Result<Assemblage> {
+    fn assemblage(&mut self, name: &str, file: &AssemblageFile, at: &Field) -> Resolved<Assemblage> {
         let (combination, terms, at) = match file {
             AssemblageFile::WeightedSum(terms) => (Combination::WeightedSum, terms, at.key("WeightedSum")),
             AssemblageFile::WinnerTakeAll(terms) => {
@@ -213,11 +213,11 @@ impl Resolver<'_> {
         };
         let terms = (terms.iter().enumerate())
             .map(|(i, (weight, schema))| self.term(*weight, schema, &at.index(i)))
-            .collect::<Result<_>>()?;
+            .collect::<Resolved<_>>()?;
         Ok(Assemblage { name: name.into(), combination, terms })
     }
 
-    fn term(&mut self, weight: f32, name: &str, at: &Field) -> Result<Term> {
+    fn term(&mut self, weight: f32, name: &str, at: &Field) -> Resolved<Term> {
         self.within(weight, Bound::WEIGHT, &at.index(0))?;
         let schema = self.expand(&self.file.schemas, "schema", name, &at.index(1), |s, schema| {
             s.schema(schema, &Field::root().key("schemas").key(name))
@@ -225,16 +225,16 @@ impl Resolver<'_> {
         Ok(Term { weight, name: name.into(), schema })
     }
 
-    fn machine(&mut self, name: &str, file: &MachineFile, at: &Field) -> Result<Machine> {
+    fn machine(&mut self, name: &str, file: &MachineFile, at: &Field) -> Resolved<Machine> {
         self.count("states", file.states.len(), MOST_PIECES, &at.key("states"))?;
         let start = self.index(&file.states, "state", &file.start, &at.key("start"))?;
         let states = (file.states.iter())
             .map(|(name, state)| self.state(name, state, file, &at.key("states").key(name)))
-            .collect::<Result<_>>()?;
+            .collect::<Resolved<_>>()?;
         Ok(Machine { name: name.into(), start, states })
     }
 
-    fn state(&mut self, name: &str, file: &StateFile, machine: &MachineFile, at: &Field) -> Result<State> {
+    fn state(&mut self, name: &str, file: &StateFile, machine: &MachineFile, at: &Field) -> Resolved<State> {
         let assemblage = match &file.run {
             Some(run) => Some(self.index(&self.file.assemblages, "assemblage", run, &at.key("run"))?),
             None => None,
@@ -275,7 +275,7 @@ impl Resolver<'_> {
         })
     }
 
-    fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Result<RoleSpec> {
+    fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Resolved<RoleSpec> {
         let (tag, part) = match file {
             RoleFile::Plays { tag, machine, danger_zone, homebases, homebase_rule } => {
                 let machine = self.index(&self.file.machines, "machine", machine, &at.key("machine"))?;
@@ -319,7 +319,7 @@ impl Resolver<'_> {
         Ok(RoleSpec { name: name.into(), tag: tag.clone(), part })
     }
 
-    fn players(&self, at: &Field) -> Result<Vec<usize>> {
+    fn players(&self, at: &Field) -> Resolved<Vec<usize>> {
         if self.file.players.is_empty() || self.file.players.len() > MAX_PLAYERS {
             return self.fault(
                 at,
@@ -331,7 +331,7 @@ impl Resolver<'_> {
             .collect()
     }
 
-    fn kick_off(&self, players: usize) -> Result<()> {
+    fn kick_off(&self, players: usize) -> Resolved<()> {
         for (side, places) in [("ours", &self.file.kick_off.ours), ("theirs", &self.file.kick_off.theirs)] {
             let at = Field::root().key("kick_off").key(side);
             self.places(places, players, &at)?;
@@ -343,7 +343,7 @@ impl Resolver<'_> {
     }
 
     /// Places for all players.
-    fn places(&self, places: &[Vec2], players: usize, at: &Field) -> Result<()> {
+    fn places(&self, places: &[Vec2], players: usize, at: &Field) -> Resolved<()> {
         if places.len() != players {
             return self.fault(at, format!("{} places for {players} players", places.len()));
         }

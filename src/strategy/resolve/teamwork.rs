@@ -2,8 +2,7 @@
 
 use struct_patch::Patch;
 
-use super::Result;
-use crate::data::{Field, Source, Validate, no_such};
+use crate::data::{DataError, Field, Source, Validate, no_such};
 use crate::protocol::policy::SwapRoles;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
@@ -19,7 +18,11 @@ pub(in crate::strategy) struct Roles<'a> {
 
 impl Roles<'_> {
     /// The section that the text has at `at`.
-    pub(in crate::strategy) fn teamwork(&self, file: &TeamworkFile, at: &Field) -> Result<Teamwork> {
+    pub(in crate::strategy) fn teamwork(
+        &self,
+        file: &TeamworkFile,
+        at: &Field,
+    ) -> Result<Teamwork, DataError> {
         let hierarchy = file.hierarchy.as_deref().unwrap_or_default();
         let at_hierarchy = at.key("hierarchy");
         self.source.distinct(&at_hierarchy, hierarchy)?;
@@ -54,14 +57,14 @@ impl Roles<'_> {
     }
 
     /// The place of a role, by its name.
-    pub(super) fn index(&self, name: &str, at: &Field) -> Result<RoleIndex> {
+    pub(super) fn index(&self, name: &str, at: &Field) -> Result<RoleIndex, DataError> {
         let Some(index) = self.names.iter().position(|role| *role == name) else {
             return Err(self.source.error_at(at, no_such("role", name, &self.names)));
         };
         RoleIndex::try_from(index).map_err(|_| self.source.error_at(at, "a strategy has 256 roles at most"))
     }
 
-    fn role_swap(&self, file: &RoleSwapFile, at: &Field) -> Result<RoleSwapSpec> {
+    fn role_swap(&self, file: &RoleSwapFile, at: &Field) -> Result<RoleSwapSpec, DataError> {
         let protocol = self.source.required(&file.protocol, at, "protocol")?;
         let policy = self.source.required(&file.policy, at, "policy")?;
         let cast = self.source.required(&file.cast, at, "cast")?;
@@ -72,7 +75,7 @@ impl Roles<'_> {
         Ok(RoleSwapSpec { protocol, policy, cast: self.cast(&cast, &at.key("cast"))?, timers })
     }
 
-    fn cast(&self, cast: &SwapRolesFile, at: &Field) -> Result<SwapRoles> {
+    fn cast(&self, cast: &SwapRolesFile, at: &Field) -> Result<SwapRoles, DataError> {
         let halfback = self.index(&cast.halfback.name, &at.key("halfback"))?;
         let floater = self.index(&cast.floater.name, &at.key("floater"))?;
         let forward = self.index(&cast.forward.name, &at.key("forward"))?;

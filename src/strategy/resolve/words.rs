@@ -1,17 +1,17 @@
 //! The words inside a strategy: points, sets, zones, features and motor schemas. Each is checked in place; a name is replaced
 //! by what it stands for, and a stateful operator gets its slot.
 
-use super::{Resolver, Result, unknown};
+use super::{Resolved, Resolver, unknown};
 use crate::data::{Bound, Field};
 use crate::strategy::RoleRef;
 use crate::strategy::language::{Feature, Point, Points, Schema, ZoneName};
 
 impl Resolver<'_> {
-    pub(super) fn point(&mut self, point: &mut Point, at: &Field) -> Result<()> {
+    pub(super) fn point(&mut self, point: &mut Point, at: &Field) -> Resolved<()> {
         self.nested(at, |s| s.point_inside(point, at))
     }
 
-    fn point_inside(&mut self, point: &mut Point, at: &Field) -> Result<()> {
+    fn point_inside(&mut self, point: &mut Point, at: &Field) -> Resolved<()> {
         match point {
             Point::Named(name) => {
                 *point = self.expand(&self.file.percepts, "percept", name, at, |s, p| s.point(p, at))?;
@@ -68,11 +68,11 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    pub(super) fn points(&mut self, points: &mut Points, at: &Field) -> Result<()> {
+    pub(super) fn points(&mut self, points: &mut Points, at: &Field) -> Resolved<()> {
         self.nested(at, |s| s.points_inside(points, at))
     }
 
-    fn points_inside(&mut self, points: &mut Points, at: &Field) -> Result<()> {
+    fn points_inside(&mut self, points: &mut Points, at: &Field) -> Resolved<()> {
         match points {
             Points::Named(name) => {
                 *points =
@@ -118,12 +118,12 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    pub(super) fn role_ref(&self, role: &mut RoleRef, at: &Field) -> Result<()> {
+    pub(super) fn role_ref(&self, role: &mut RoleRef, at: &Field) -> Resolved<()> {
         role.index = self.roles.index(&role.name, at)?;
         Ok(())
     }
 
-    fn zone(&mut self, zone: &mut ZoneName, at: &Field) -> Result<()> {
+    fn zone(&mut self, zone: &mut ZoneName, at: &Field) -> Resolved<()> {
         match zone {
             ZoneName::Named(name) => match self.file.zones.get(name) {
                 Some(known) => *zone = ZoneName::Exactly(known.scaled(self.scale)),
@@ -138,11 +138,11 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    pub(super) fn feature(&mut self, feature: &mut Feature, at: &Field) -> Result<()> {
+    pub(super) fn feature(&mut self, feature: &mut Feature, at: &Field) -> Resolved<()> {
         self.nested(at, |s| s.feature_inside(feature, at))
     }
 
-    fn feature_inside(&mut self, feature: &mut Feature, at: &Field) -> Result<()> {
+    fn feature_inside(&mut self, feature: &mut Feature, at: &Field) -> Resolved<()> {
         match feature {
             Feature::Is(name) => {
                 *feature = self.expand(&self.file.features, "feature", name, at, |s, f| s.feature(f, at))?;
@@ -213,7 +213,7 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    pub(super) fn schema(&mut self, schema: &mut Schema, at: &Field) -> Result<()> {
+    pub(super) fn schema(&mut self, schema: &mut Schema, at: &Field) -> Resolved<()> {
         match schema {
             Schema::GoTo { target, controlled_zone, dead_zone } => {
                 self.point(target, &at.key("target"))?;
@@ -257,7 +257,7 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    fn attraction(&self, controlled: f32, dead: f32, at: &Field) -> Result<()> {
+    fn attraction(&self, controlled: f32, dead: f32, at: &Field) -> Resolved<()> {
         self.within(controlled, Bound::LENGTH, &at.key("controlled_zone"))?;
         self.within(dead, Bound::LENGTH, &at.key("dead_zone"))?;
         if dead > controlled {
@@ -269,7 +269,7 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    fn repulsion(&self, sphere: f32, safety: f32, at: &Field) -> Result<()> {
+    fn repulsion(&self, sphere: f32, safety: f32, at: &Field) -> Resolved<()> {
         self.within(sphere, Bound::LENGTH, &at.key("sphere"))?;
         self.within(safety, Bound::LENGTH, &at.key("safety"))?;
         if safety > sphere {

@@ -2,14 +2,14 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Checker, Result};
+use super::{Checked, Checker};
 use crate::data::{Bound, Field, no_such};
 use crate::geometry::Zone;
 use crate::ids::RobotId;
 use crate::lab::scenario::condition::{Area, Condition, Expectation, Packets, Thing};
 
 impl Checker<'_> {
-    pub(super) fn expectation(&self, expectation: &Expectation, at: &Field) -> Result<()> {
+    pub(super) fn expectation(&self, expectation: &Expectation, at: &Field) -> Checked<()> {
         let at = match expectation {
             Expectation::Eventually { within, after, .. } => {
                 let at = at.key("Eventually");
@@ -30,7 +30,7 @@ impl Checker<'_> {
         self.condition(expectation.what(), &at.key("what"))
     }
 
-    fn span(&self, from: f32, until: Option<f32>, at: Field) -> Result<Field> {
+    fn span(&self, from: f32, until: Option<f32>, at: Field) -> Checked<Field> {
         self.time(from, &at.key("from"))?;
         if let Some(until) = until {
             self.time(until, &at.key("until"))?;
@@ -41,7 +41,7 @@ impl Checker<'_> {
         Ok(at)
     }
 
-    fn condition(&self, condition: &Condition, at: &Field) -> Result<()> {
+    fn condition(&self, condition: &Condition, at: &Field) -> Checked<()> {
         match condition {
             Condition::RoleOf(robot, role) => self.role_of(*robot, role, &at.key("RoleOf")),
             Condition::ActingAs(robot, role) => self.role_of(*robot, role, &at.key("ActingAs")),
@@ -110,7 +110,7 @@ impl Checker<'_> {
         }
     }
 
-    fn counts(&self, at_least: Option<u32>, at_most: Option<u32>, at: &Field) -> Result<()> {
+    fn counts(&self, at_least: Option<u32>, at_most: Option<u32>, at: &Field) -> Checked<()> {
         match (at_least, at_most) {
             (None, None) => self.fault(at, "needs `at_least` or `at_most`"),
             (Some(least), Some(most)) if least > most => {
@@ -120,19 +120,19 @@ impl Checker<'_> {
         }
     }
 
-    fn parts(&self, parts: &[Condition], at: &Field) -> Result<()> {
+    fn parts(&self, parts: &[Condition], at: &Field) -> Checked<()> {
         if parts.is_empty() {
             return self.fault(at, "needs at least one condition");
         }
         parts.iter().enumerate().try_for_each(|(i, part)| self.condition(part, &at.index(i)))
     }
 
-    fn role_of(&self, robot: RobotId, role: &str, at: &Field) -> Result<()> {
+    fn role_of(&self, robot: RobotId, role: &str, at: &Field) -> Checked<()> {
         self.robot(robot, &at.index(0))?;
         self.role(robot.team, role, &at.index(1))
     }
 
-    fn activities(&self, robot: RobotId, names: &[String], at: &Field) -> Result<()> {
+    fn activities(&self, robot: RobotId, names: &[String], at: &Field) -> Checked<()> {
         self.robot(robot, &at.index(0))?;
         let at = at.index(1);
         if names.is_empty() {
@@ -146,7 +146,7 @@ impl Checker<'_> {
     }
 
     /// A robot and perhaps another one of its team.
-    fn mates(&self, robot: RobotId, other: Option<RobotId>, key: &str, at: &Field) -> Result<()> {
+    fn mates(&self, robot: RobotId, other: Option<RobotId>, key: &str, at: &Field) -> Checked<()> {
         self.robot(robot, &at.key("robot"))?;
         self.maybe_robot(other, &at.key(key))?;
         match other {
@@ -157,7 +157,7 @@ impl Checker<'_> {
         }
     }
 
-    fn thing(&self, thing: Thing, at: &Field) -> Result<()> {
+    fn thing(&self, thing: Thing, at: &Field) -> Checked<()> {
         match thing {
             Thing::Robot(robot) => self.robot(robot, &at.key("Robot")),
             Thing::At(x, y) => self.source.vector_within(&at.key("At"), Vec2::new(x, y), Bound::PLACE),
@@ -165,13 +165,13 @@ impl Checker<'_> {
         }
     }
 
-    fn zone(&self, zone: Zone, at: &Field) -> Result<()> {
+    fn zone(&self, zone: Zone, at: &Field) -> Checked<()> {
         self.source.vector_within(&at.key("min"), zone.min, Bound::PLACE)?;
         self.source.vector_within(&at.key("max"), zone.max, Bound::PLACE)?;
         if zone.is_finite() { Ok(()) } else { self.fault(at, "its min must be below its max") }
     }
 
-    fn limits(&self, below: Option<f32>, above: Option<f32>, bound: Bound, at: &Field) -> Result<()> {
+    fn limits(&self, below: Option<f32>, above: Option<f32>, bound: Bound, at: &Field) -> Checked<()> {
         for (key, limit) in [("below", below), ("above", above)] {
             if let Some(limit) = limit {
                 self.source.within(&at.key(key), limit, bound)?;
@@ -187,7 +187,7 @@ impl Checker<'_> {
         }
     }
 
-    fn packets(&self, packets: &Packets, at: &Field) -> Result<()> {
+    fn packets(&self, packets: &Packets, at: &Field) -> Checked<()> {
         self.maybe_robot(packets.from, &at.key("from"))?;
         self.maybe_robot(packets.to, &at.key("to"))?;
         if packets.at_least == 0 {

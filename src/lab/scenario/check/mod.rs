@@ -23,7 +23,7 @@ use crate::rng::LARGEST_SEED;
 use crate::robot::RobotKind;
 use crate::world::physics::Footprint;
 
-type Result<T> = std::result::Result<T, DataError>;
+type Checked<T> = Result<T, DataError>;
 
 /// A scenario that can be played: every name is known, every number is sound.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +108,7 @@ pub struct KnownTeam<'a> {
 ///
 /// # Errors
 /// The first fault, with its line and field.
-pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Result<Scenario> {
+pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Checked<Scenario> {
     let root = Field::root();
     let name = source.required(&file.name, &root, "name")?;
     let seconds = source.required(&file.seconds, &root, "seconds")?;
@@ -194,11 +194,11 @@ struct PlacedBody {
 }
 
 impl Checker<'_> {
-    fn fault<T>(&self, at: &Field, message: impl Into<String>) -> Result<T> {
+    fn fault<T>(&self, at: &Field, message: impl Into<String>) -> Checked<T> {
         Err(self.source.error_at(at, message))
     }
 
-    fn on_pitch(&self, point: Vec2, at: &Field) -> Result<()> {
+    fn on_pitch(&self, point: Vec2, at: &Field) -> Checked<()> {
         self.source.vector_within(at, point, Bound::PLACE)?;
         if self.known.pitch.holds(point, 0.0) {
             return Ok(());
@@ -207,7 +207,7 @@ impl Checker<'_> {
     }
 
     /// A time within the scenario.
-    fn time(&self, time: f32, at: &Field) -> Result<()> {
+    fn time(&self, time: f32, at: &Field) -> Checked<()> {
         self.source.within(at, time, Bound::SECONDS)?;
         if time <= self.seconds {
             return Ok(());
@@ -215,7 +215,7 @@ impl Checker<'_> {
         self.fault(at, format!("{time} s is after the end, which is at {} s", self.seconds))
     }
 
-    fn robot(&self, robot: RobotId, at: &Field) -> Result<()> {
+    fn robot(&self, robot: RobotId, at: &Field) -> Checked<()> {
         if self.robots.contains(&robot) {
             return Ok(());
         }
@@ -224,16 +224,16 @@ impl Checker<'_> {
         self.fault(at, no_such("robot", &robot.to_string(), known.iter().map(RobotId::to_string)))
     }
 
-    fn maybe_robot(&self, robot: Option<RobotId>, at: &Field) -> Result<()> {
+    fn maybe_robot(&self, robot: Option<RobotId>, at: &Field) -> Checked<()> {
         robot.map_or(Ok(()), |robot| self.robot(robot, at))
     }
 
-    fn role(&self, team: Team, role: &str, at: &Field) -> Result<()> {
+    fn role(&self, team: Team, role: &str, at: &Field) -> Checked<()> {
         let roles = &self.known.teams[team.index()].roles;
         if roles.contains(&role) { Ok(()) } else { self.fault(at, no_such("role", role, roles)) }
     }
 
-    fn seeds(&self, seeds: Vec<u64>, at: &Field) -> Result<Vec<u64>> {
+    fn seeds(&self, seeds: Vec<u64>, at: &Field) -> Checked<Vec<u64>> {
         self.source.locate(at, check_count("", "the number of seeds", seeds.len(), 1..=MOST_SEEDS))?;
         if let Some(i) = seeds.iter().position(|seed| *seed > LARGEST_SEED) {
             return self.fault(&at.index(i), format!("must be at most {LARGEST_SEED}, not {}", seeds[i]));
@@ -244,7 +244,7 @@ impl Checker<'_> {
         }
     }
 
-    fn places(&self, places: &BallPlaces, at: &Field) -> Result<Vec<Vec2>> {
+    fn places(&self, places: &BallPlaces, at: &Field) -> Checked<Vec<Vec2>> {
         self.source.locate(at, check_count("", "the number of places", places.count(), 1..=MOST_PLACES))?;
         let known = places.to_vec();
         for (i, place) in known.iter().enumerate() {
@@ -256,7 +256,7 @@ impl Checker<'_> {
         Ok(known)
     }
 
-    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Result<Vec<ScenarioPlayer>> {
+    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Checked<Vec<ScenarioPlayer>> {
         let players = match &side.players {
             Some(players) if players.is_empty() => {
                 return self.fault(&at.key("players"), "needs at least one robot");
@@ -268,13 +268,13 @@ impl Checker<'_> {
             None => self.line_up(team, side, at)?,
         };
         let players = players.iter().map(|(player, at, place)| self.player(team, player, at, place));
-        let mut players = players.collect::<Result<Vec<_>>>()?;
+        let mut players = players.collect::<Checked<Vec<_>>>()?;
         players.sort_by_key(|player| player.id);
         Ok(players)
     }
 
     /// All players of a strategy at the places of one of its line-ups, and where the file says so.
-    fn line_up(&self, team: Team, side: &SideFile, at: &Field) -> Result<Vec<(PlayerFile, Field, Field)>> {
+    fn line_up(&self, team: Team, side: &SideFile, at: &Field) -> Checked<Vec<(PlayerFile, Field, Field)>> {
         let known = &self.known.teams[team.index()];
         let (places, at) = match &side.line_up {
             None => (known.kick_off, at.clone()),
@@ -297,7 +297,7 @@ impl Checker<'_> {
         player: &PlayerFile,
         at: &Field,
         place: &Field,
-    ) -> Result<ScenarioPlayer> {
+    ) -> Checked<ScenarioPlayer> {
         let id = RobotId::new(team, player.number);
         let players = self.known.teams[team.index()].kick_off.len();
         if usize::from(player.number) >= players {
@@ -319,13 +319,13 @@ impl Checker<'_> {
         Ok(ScenarioPlayer { id, pose, role: player.role.clone(), on: !player.off })
     }
 
-    fn rule(&self, rule: &FaultRule, at: &Field) -> Result<()> {
+    fn rule(&self, rule: &FaultRule, at: &Field) -> Checked<()> {
         self.maybe_robot(rule.from, &at.key("from"))?;
         self.maybe_robot(rule.to, &at.key("to"))?;
         self.source.locate(at, rule.validate())
     }
 
-    fn event(&self, event: &TimedEvent, at: &Field) -> Result<()> {
+    fn event(&self, event: &TimedEvent, at: &Field) -> Checked<()> {
         self.time(event.at, &at.key("at"))?;
         let at = at.key("what");
         match &event.what {
@@ -362,7 +362,7 @@ impl Checker<'_> {
         }
     }
 
-    fn partition(&self, one: &[RobotId], other: &[RobotId], at: &Field) -> Result<()> {
+    fn partition(&self, one: &[RobotId], other: &[RobotId], at: &Field) -> Checked<()> {
         for (side, group) in [one, other].into_iter().enumerate() {
             if group.is_empty() {
                 return self.fault(&at.index(side), "needs at least one robot");
@@ -379,7 +379,7 @@ impl Checker<'_> {
     }
 
     /// A swap takes and gives the same roles, each once.
-    fn swap(&self, team: Team, roles: &[(String, String)], at: &Field) -> Result<()> {
+    fn swap(&self, team: Team, roles: &[(String, String)], at: &Field) -> Checked<()> {
         for (i, (from, to)) in roles.iter().enumerate() {
             self.role(team, from, &at.index(i).index(0))?;
             self.role(team, to, &at.index(i).index(1))?;

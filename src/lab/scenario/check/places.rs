@@ -2,7 +2,7 @@
 
 use bevy::prelude::Vec2;
 
-use super::{Checker, PlacedBody, Result};
+use super::{Checked, Checker, PlacedBody};
 use crate::data::Field;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
@@ -17,7 +17,7 @@ impl Checker<'_> {
     }
 
     /// Names, positions and headings are sound by now; the ball starts at any of these places.
-    pub(super) fn stand_apart(&self, places: &[Vec2]) -> Result<()> {
+    pub(super) fn stand_apart(&self, places: &[Vec2]) -> Checked<()> {
         let walls = Footprint::of_walls(self.known.pitch);
         for (i, robot) in self.standing.iter().enumerate() {
             self.finds_room(robot, &self.standing[..i], &walls)?;
@@ -25,7 +25,7 @@ impl Checker<'_> {
         places.iter().try_for_each(|place| self.finds_room(&self.ball_at(*place), &self.standing, &walls))
     }
 
-    fn finds_room(&self, body: &PlacedBody, others: &[PlacedBody], walls: &Footprint) -> Result<()> {
+    fn finds_room(&self, body: &PlacedBody, others: &[PlacedBody], walls: &Footprint) -> Checked<()> {
         let (name, at) = (&body.name, body.pose.position);
         if body.footprint.overlaps(body.pose, walls, Pose::default()) {
             return self.fault(&body.field, format!("{name} at ({}, {}) would stand in a wall", at.x, at.y));

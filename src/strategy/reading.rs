@@ -1,0 +1,94 @@
+//! Reading a strategy from its file and those that it is based on.
+
+use std::path::{Path, PathBuf};
+
+use super::base::Lineage;
+use super::file::StrategyFile;
+use super::pieces::Strategy;
+use super::resolve;
+use super::teamwork::TeamworkFile;
+use crate::data::{AssetFolder, DataError, Field, Source};
+use crate::pitch::Pitch;
+
+/// What came of reading a strategy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrategyReading {
+    /// A strategy is loaded whole or not at all: then the error says what is wrong, with file, line, column and field.
+    pub strategy: Result<Strategy, DataError>,
+    /// What the files say of teamwork.
+    teamwork: TeamworkFile,
+    /// Its own file first, then where those that it is based on are or were looked for: if one of these changes, comes or
+    /// goes, so may the strategy.
+    pub files: Vec<PathBuf>,
+}
+
+/// What a match or a scenario says of a strategy's teamwork in place of the strategy, and where it says so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TeamworkChange {
+    pub teamwork: TeamworkFile,
+    pub source: Source,
+    pub at: Field,
+}
+
+impl StrategyReading {
+    /// The same with a change of its teamwork, field by field; an error where the change does not fit the strategy.
+    pub(crate) fn with_teamwork(mut self, change: &TeamworkChange) -> StrategyReading {
+        self.strategy = self.strategy.and_then(|mut strategy| {
+            let names = strategy.roles.iter().map(|role| role.name.as_str()).collect();
+            let roles = resolve::Roles { names, source: &change.source };
+            self.teamwork = change.teamwork.clone().over(self.teamwork.clone());
+            strategy.teamwork = roles.teamwork(&self.teamwork, &change.at)?;
+            Ok(strategy)
+        });
+        self
+    }
+
+    /// The same, unless a sound strategy does not do for its use: then an error at the field that says why.
+    pub(crate) fn require(
+        mut self,
+        check: impl FnOnce(&mut Strategy) -> Result<(), (Field, String)>,
+    ) -> StrategyReading {
+        self.strategy = self.strategy.and_then(|mut strategy| match check(&mut strategy) {
+            Ok(()) => Ok(strategy),
+            Err((field, message)) => Err(Source::read(&self.files[0])?.error_at(&field, message)),
+        });
+        self
+    }
+}
+
+impl Strategy {
+    /// Reads and checks a strategy file and those that it is based on. Its positions are stretched to a pitch, and are as
+    /// they are written without one.
+    pub fn read(assets: &AssetFolder, path: &Path, pitch: Option<&Pitch>) -> StrategyReading {
+        let mut lineage = Lineage::of(path, assets);
+        let read = Source::read(path).and_then(|source| Strategy::resolved(&source, &mut lineage, pitch));
+        let (strategy, teamwork) = match read {
+            Ok((strategy, file)) => (Ok(strategy), file.teamwork),
+            Err(error) => (Err(error), TeamworkFile::default()),
+        };
+        StrategyReading { strategy, teamwork, files: lineage.files }
+    }
+
+    /// Checks the text of a strategy file that is already at hand, as [`Strategy::read`] does.
+    ///
+    /// # Errors
+    /// Says what is wrong with the file's path, line, column and field.
+    pub fn parse(
+        assets: &AssetFolder,
+        source: &Source,
+        pitch: Option<&Pitch>,
+    ) -> Result<Strategy, DataError> {
+        let read = Strategy::resolved(source, &mut Lineage::of(&source.path, assets), pitch);
+        read.map(|(strategy, _)| strategy)
+    }
+
+    fn resolved(
+        source: &Source,
+        lineage: &mut Lineage,
+        pitch: Option<&Pitch>,
+    ) -> Result<(Strategy, StrategyFile), DataError> {
+        let file = lineage.complete(source.parse()?, source)?;
+        let strategy = resolve::resolve(&file, source, pitch.map(|pitch| 2.0 * pitch.half_size()))?;
+        Ok((strategy, file))
+    }
+}
