@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use super::external_message::{Address, DataType, ExternalMessage, Module, Peer};
 
-/// Data that modules exchange: one data type, or several that are one type in the program. [`data!`](crate::comms::tcm::data)
+/// Data that modules exchange: one data type, or several that are one type in the program. `data!`
 /// writes the implementation.
 pub trait Data: Clone + Send + Sync + 'static {
     /// The data types that it may be.

@@ -50,9 +50,9 @@ pub struct Rule {
     pub judge: RuleJudge,
 }
 
-/// All rules, in order; which of them bite is for the [`RuleBook`] to say:
+/// All rules, in order; which of them bite is for the [`RuleBook`](super::rulebook::RuleBook) to say:
 ///
-/// 1. `walking` may cut the time of [`Phase::Ready`](super::state::Phase) short, which `phases` counts.
+/// 1. `walking` may cut the time of [`Phase::Ready`](super::phase::Phase) short, which `phases` counts.
 /// 2. `phases` tells how much of the sample was played, which all others count.
 /// 3. `places by hand` follows the order to stand still at once.
 /// 4. `touches` knows who touched the ball, and when the kick-off is over, before `goal` and `out` ask.
