@@ -4,6 +4,7 @@ use bevy::prelude::*;
 
 /// Counts the ticks of a match.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Resource)]
 pub struct Clock {
     /// Ticks that are over.
     pub tick: u64,

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// A position in metres and a heading in radians, counter-clockwise from +x.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
+#[reflect(Component)]
 pub struct Pose {
     /// m.
     pub position: Vec2,
@@ -60,6 +61,7 @@ impl UnitRotation for Vec2 {
 
 /// Linear velocity in m/s and angular velocity in rad/s.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component)]
 pub struct Twist {
     /// m/s.
     pub linear: Vec2,

@@ -32,6 +32,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | [`schedule`], [`clock`], [`ids`], [`rng`], [`geometry`] | the stages of a tick, time, names, dice, poses |
+//! | [`state`] | what belongs to a match: how it starts, changes, is copied and put back |
 //! | [`data`] | RON files, with places for their mistakes |
 //! | [`pitch`] | the pitch |
 //! | [`protocol`] | role swap and ball booking, as values |
@@ -73,6 +74,7 @@ pub mod protocol;
 pub mod rng;
 pub mod robot;
 pub mod schedule;
+pub mod state;
 pub mod strategy;
 #[cfg(test)]
 mod testing;

@@ -1,6 +1,8 @@
 //! Seeded dice. Every purpose and robot has a stream of its own, so that switching one mechanism on or off does not
 //! shift the dice of another.
 
+use std::fmt;
+
 use bevy::math::ops;
 use bevy::prelude::*;
 use rand::SeedableRng;
@@ -12,6 +14,7 @@ use crate::ids::RobotId;
 
 /// The seed of a match: with the assets and the recorded inputs, all that chance depends on.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Resource)]
 pub struct Seed(pub u64);
 
 /// The seed of a match that nobody has chosen one for.
@@ -20,8 +23,16 @@ pub const DEFAULT_SEED: u64 = 1;
 pub const LARGEST_SEED: u64 = (1 << 53) - 1;
 
 /// A stream of random numbers: PCG (MCG 128/64), named by its purpose and its robot.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Dice(Pcg64Mcg);
+
+/// The generator hides its state; the next number tells streams apart.
+impl fmt::Debug for Dice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let next: u64 = StandardUniform.sample(&mut self.0.clone());
+        write!(f, "Dice({next:016x})")
+    }
+}
 
 impl Dice {
     /// The stream for a purpose, and for one robot where each robot has its own.

@@ -5,9 +5,12 @@ use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, Single
 use bevy::prelude::*;
 
 use crate::clock::Clock;
+use crate::rng::Seed;
+use crate::state::RegisterState;
 
 pub(crate) fn plugin(app: &mut App) {
-    app.init_resource::<Clock>();
+    app.match_resource::<Clock>().reflected().starts_empty();
+    app.match_resource::<Seed>().reflected();
     app.init_schedule(Tick).edit_schedule(Tick, |schedule| {
         schedule.set_executor(SingleThreadedExecutor::new());
         schedule
@@ -36,7 +39,8 @@ pub(crate) fn plugin(app: &mut App) {
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Tick;
 
-/// The stages of a [`Tick`], in their order. Each component is written by one of them only.
+/// The stages of a [`Tick`], in their order. Each component and resource of a match is written by one of them, but for a few
+/// that `tests/single_writer.rs` lists with their reasons.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TickSystems {
     /// What comes from outside: the pilot's keys and the inspector's requests.

@@ -13,5 +13,5 @@ pub(crate) fn plugin(app: &mut App) {
 
 /// The communication modules of robots, whatever carries their datagrams.
 pub(crate) fn modules(app: &mut App) {
-    app.add_plugins((tcm::plugin, messages::plugin));
+    app.add_plugins((tcm::plugin, messages::plugin, radio::record_plugin));
 }

@@ -1,23 +1,19 @@
 //! The hands around the pitch: put ball and robots where the referee's decisions want them, right after the decisions.
 
-use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
 use crate::clock::Clock;
-use crate::geometry::{Pose, Twist};
+use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
-use crate::mind::perception::Memory;
-use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
-use crate::robot::handling::Handling;
-use crate::robot::{DriveCommand, OffPitch, Orders, Percepts, Robot, RobotBodies, SteeringIntent};
+use crate::robot::{OffPitch, Orders, PutDown, RobotBodies};
 use crate::schedule::{Tick, TickSystems};
-use crate::strategy::{Activity, Role, Strategies, Strategy};
-use crate::world::ball::{Ball, Rolling};
-use crate::world::physics::Room;
+use crate::state::apply_event;
+use crate::strategy::{Role, Strategies, Strategy};
+use crate::world::ball::{Ball, BallPut};
+use crate::world::physics::Put;
 use crate::world::referee::{Calls, Decision, MatchState, Phase, RuleBook, judge, orders_of};
-use crate::world::sense::Eyesight;
 
 pub(super) fn plugin(app: &mut App) {
     let hands = (place_ball, place_robots, tell_robots).chain();
@@ -26,19 +22,19 @@ pub(super) fn plugin(app: &mut App) {
 
 fn place_ball(
     (state, calls): (Res<MatchState>, Res<Calls>),
-    mut room: Room,
-    ball: Single<(&RapierRigidBodyHandle, &mut Pose, &mut Twist, &mut Rolling), With<Ball>>,
+    mut commands: Commands,
+    ball: Single<Entity, With<Ball>>,
     robots: Query<(&RobotId, &RobotBodies)>,
 ) {
-    let (handle, mut pose, mut twist, mut rolling) = ball.into_inner();
     for call in &calls.0 {
         if let Decision::BallPlaced { at, .. } = call {
             let is_lifted = |id: RobotId| calls.0.iter().any(|call| moves(call, id, &state));
             let lifted = robots.iter().filter(|(id, _)| is_lifted(**id)).flat_map(|(_, bodies)| bodies.all());
-            let wanted = Pose { position: *at, heading: 0.0 };
-            *pose = room.put_down(&[*handle], wanted, &lifted.collect::<Vec<_>>());
-            *twist = Twist::default();
-            *rolling = Rolling::default();
+            let at = Pose { position: *at, heading: 0.0 };
+            let rests =
+                |world: &mut World, ball, _| apply_event(world, ball, &BallPut { velocity: Vec2::ZERO });
+            let put = Put { at, lifted: lifted.collect(), ..Put::default() };
+            commands.entity(*ball).queue(put.then(rests));
         }
     }
 }
@@ -54,53 +50,30 @@ fn moves(call: &Decision, id: RobotId, state: &MatchState) -> bool {
     }
 }
 
-/// Everything of a robot that changes when people carry it.
-#[derive(QueryData)]
-#[query_data(mutable)]
-pub struct Carried {
-    entity: Entity,
-    id: &'static RobotId,
-    handles: &'static RobotBodies,
-    pose: &'static mut Pose,
-    twist: &'static mut Twist,
-    robot: &'static Robot,
-    command: &'static mut DriveCommand,
-    handling: &'static mut Handling,
-    intent: &'static mut SteeringIntent,
-    model: &'static mut WorldModel,
-    eyesight: &'static mut Eyesight,
-    percepts: &'static mut Percepts,
-    role: &'static Role,
-    activity: &'static mut Activity,
-    memory: &'static mut Memory,
-}
-
 fn place_robots(
     clock: Res<Clock>,
     (pitch, state, strategies, calls): (Res<Pitch>, Res<MatchState>, Res<Strategies>, Res<Calls>),
-    mut room: Room,
     mut commands: Commands,
-    mut robots: Query<Carried, Without<Ball>>,
+    robots: Query<(Entity, &RobotId, &RobotBodies, &Role)>,
 ) {
     let is_lifted = |id: RobotId| calls.0.iter().any(|call| moves(call, id, &state));
     let mut lifted: Vec<(RobotId, RapierRigidBodyHandle)> = Vec::new();
-    for robot in robots.iter().filter(|robot| is_lifted(*robot.id)) {
-        lifted.extend(robot.handles.all().into_iter().map(|handle| (*robot.id, handle)));
+    for (_, id, handles, _) in robots.iter().filter(|(_, id, ..)| is_lifted(**id)) {
+        lifted.extend(handles.all().into_iter().map(|handle| (*id, handle)));
     }
     for call in &calls.0 {
         let kick_off = match *call {
             Decision::RobotsPlaced { kick_off } => Some(Team::BOTH.map(|team| {
-                let in_team = robots.iter().filter(|robot| robot.id.team == team);
+                let in_team = robots.iter().filter(|(_, id, ..)| id.team == team);
                 let mut roles: Vec<(u8, usize)> =
-                    in_team.map(|robot| (robot.id.number, robot.role.0)).collect();
+                    in_team.map(|(_, id, _, role)| (id.number, role.0)).collect();
                 roles.sort_unstable();
                 kick_off_poses(strategies.of(team), &roles, kick_off == Some(team))
             })),
             _ => None,
         };
         // In order, since Rapier remembers the order in which bodies are touched.
-        for mut robot in robots.iter_mut().sort::<&RobotId>() {
-            let id = *robot.id;
+        for (robot, &id, ..) in robots.iter().sort::<&RobotId>() {
             let ends = state.attacking(id.team);
             if !moves(call, id, &state) {
                 continue;
@@ -114,23 +87,23 @@ fn place_robots(
                 Decision::RobotReturned { at, .. } | Decision::RobotPlaced { at, .. } => at,
                 _ => beside_the_pitch(&pitch, id),
             };
+            let mut robot = commands.entity(robot);
             match call {
                 Decision::RobotReturned { .. } => {
-                    commands.entity(robot.entity).remove::<OffPitch>();
+                    robot.remove::<OffPitch>();
                 }
                 Decision::RobotRemoved { .. } => {
-                    commands.entity(robot.entity).insert(OffPitch);
+                    robot.insert(OffPitch);
                 }
                 _ => {}
             }
             lifted.retain(|(other, _)| *other != id);
-            let in_the_air: Vec<_> = lifted.iter().map(|(_, handle)| *handle).collect();
-            let at = room.put_down(&robot.handles.all(), at, &in_the_air);
-            robot.put_down(at, ends.turn_pose(at));
-            let strategy = strategies.of(id.team);
-            let history = std::mem::take(&mut robot.activity.history);
-            *robot.activity = Activity { history, ..Activity::new(strategy, robot.role.0, clock.tick) };
-            *robot.memory = Memory::new(strategy.slots);
+            let in_the_air = lifted.iter().map(|(_, handle)| *handle).collect();
+            let (strategy, tick) = (strategies.0[id.team.index()].clone(), clock.tick);
+            let put = Put { at, lifted: in_the_air, ..Put::default() };
+            robot.queue(put.then(move |world, robot, at| {
+                apply_event(world, robot, &PutDown { told: ends.turn_pose(at), strategy, tick });
+            }));
         }
     }
 }
@@ -160,19 +133,6 @@ fn tell_robots(
         if *orders != next {
             *orders = next;
         }
-    }
-}
-
-impl CarriedItem<'_, '_> {
-    fn put_down(&mut self, at: Pose, in_team_frame: Pose) {
-        *self.pose = at;
-        *self.twist = Twist::default();
-        *self.command = DriveCommand::idle(&self.robot.kind);
-        self.handling.let_go();
-        *self.intent = SteeringIntent::Stop;
-        *self.model = WorldModel::told(in_team_frame);
-        *self.percepts = Percepts::default();
-        self.eyesight.blink();
     }
 }
 

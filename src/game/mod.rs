@@ -20,23 +20,25 @@ pub use team::{TeamFile, TeamPlan};
 pub use situation::{Placed, Situation};
 
 use crate::clock::Clock;
-use crate::comms::radio::{Channel, FaultRules, Interference, RadioRecord};
-use crate::comms::tcm::{Addresses, Incoming, OnAir};
+use crate::comms::radio::{Channel, FaultRules};
+use crate::comms::tcm::Addresses;
 use crate::game::record::Record;
-use crate::game::requests::{RequestLog, Requests, Script};
+use crate::game::requests::{RequestLog, Script};
 use crate::ids::{MatchEntity, RobotId, Team};
 use crate::rng::Seed;
 use crate::schedule::{self, Tick};
+use crate::state;
 use crate::strategy::Strategies;
 use crate::world::physics::open_world;
-use crate::world::referee::{Calls, MatchState, Phase, Whistles};
-use crate::{comms, mind, world};
-use spawn::{spawn_ball, spawn_mind, spawn_planned};
+use crate::world::referee::{MatchState, Phase};
+use crate::{comms, mind, pitch, robot, world};
+use spawn::{spawn_ball, spawn_mind, spawn_robot};
 
 /// Everything that a match needs, without a window.
 pub fn simulation(app: &mut App) {
     let game = (carry::plugin, requests::plugin, net::plugin, record::plugin);
-    app.add_plugins((schedule::plugin, world::plugin, comms::plugin, mind::plugin, game));
+    let contract = (schedule::plugin, pitch::plugin, robot::plugin);
+    app.add_plugins((contract, world::plugin, comms::plugin, mind::plugin, game));
 }
 
 /// Ends the match in this world, if there is one, and starts another from the beginning.
@@ -46,53 +48,48 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
         world.despawn(entity);
     }
     net::close(world);
-    if let Some(mut log) = world.get_resource_mut::<RequestLog>() {
-        log.0.clear();
-    }
-    let seed = Seed(plan.seed);
-    let clock = Clock::default();
-    world.insert_resource(clock);
-    world.insert_resource(seed);
-    world.insert_resource(plan.pitch.clone());
-    world.insert_resource(plan.ball);
-    world.insert_resource(plan.rules.clone());
-    world.insert_resource(match &plan.situation {
-        Some(situation) => MatchState::in_play(Team::Home, &plan.rules, situation.refereed),
-        None => MatchState::new(Team::Home, &plan.rules),
-    });
-    world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
-    world.insert_resource(Whistles::default());
-    world.insert_resource(Calls::default());
-    world.insert_resource(Record::new(seed, plan.robots()));
-    world.insert_resource(Requests::default());
-    world.insert_resource(Script::new(&plan.script));
-    world.insert_resource(Channel::new(seed, plan.radio.clone()));
-    world.insert_resource(Interference::default());
-    world.insert_resource(FaultRules::new(plan.faults.iter().cloned()));
-    world.insert_resource(RadioRecord::default());
-    world.insert_resource(Addresses(plan.directory()));
-    world.insert_resource(Incoming::default());
-    world.insert_resource(OnAir::default());
+    begin(world, plan);
+    begin_match(world, plan);
     open_world(world, &plan.pitch, MatchEntity);
-    spawn_ball(world, plan, seed);
+    spawn_ball(world, plan);
     for id in plan.robots() {
-        spawn_planned(world, plan, id, seed, &clock);
+        spawn_robot(world, plan, id);
     }
     net::prepare(world, plan);
 }
 
 /// Puts one robot of a match into this world, without a body and without anybody else, for a process of its own.
 pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity {
-    let seed = Seed(plan.seed);
-    let clock = Clock::default();
-    world.insert_resource(clock);
-    world.insert_resource(seed);
+    begin(world, plan);
+    spawn_mind(world, plan, robot)
+}
+
+/// Inserts the resources of a match and of a mind alone: those that start empty, and those of the plan.
+fn begin(world: &mut World, plan: &MatchPlan) {
+    state::begin(world);
+    world.insert_resource(Seed(plan.seed));
     world.insert_resource(plan.pitch.clone());
     world.insert_resource(plan.ball);
     world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
-    world.insert_resource(RadioRecord::default());
     world.insert_resource(Addresses(plan.directory()));
-    spawn_mind(world, plan, robot, seed, &clock)
+    world.insert_resource(plan.tcm);
+}
+
+/// Inserts the resources of a match that start from the plan.
+fn begin_match(world: &mut World, plan: &MatchPlan) {
+    let seed = Seed(plan.seed);
+    world.insert_resource(plan.rules.clone());
+    world.insert_resource(match &plan.situation {
+        Some(situation) => MatchState::in_play(Team::Home, &plan.rules, situation.refereed),
+        None => MatchState::new(Team::Home, &plan.rules),
+    });
+    world.insert_resource(Record::new(seed, plan.robots()));
+    world.insert_resource(Script::new(&plan.script));
+    world.insert_resource(Channel::new(seed, plan.radio.clone()));
+    world.insert_resource(FaultRules::new(plan.faults.iter().cloned()));
+    if let Some(mut log) = world.get_resource_mut::<RequestLog>() {
+        log.0.clear();
+    }
 }
 
 /// A match without a window, run as fast as it can.

@@ -11,6 +11,12 @@ pub use ball_kind::BallKind;
 
 use crate::data::{Bound, Fault, Validate, check_all, check_count, ensure};
 use crate::geometry::Zone;
+use crate::state::RegisterState;
+
+pub(crate) fn plugin(app: &mut App) {
+    app.match_resource::<Pitch>();
+    app.match_resource::<BallKind>();
+}
 
 /// A pitch, read from `assets/pitches/*.ron`.
 #[derive(Resource, Clone, Debug, PartialEq, Serialize, Deserialize)]

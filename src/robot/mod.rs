@@ -1,5 +1,6 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
+mod events;
 mod gait;
 pub mod handling;
 mod health;
@@ -18,6 +19,7 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use smallvec::SmallVec;
 
+pub use events::{PutDown, RobotStart, StrategyChanged, SwitchedOff, SwitchedOn};
 pub use gait::Gait;
 pub use health::{Health, Restart, RobotFailure};
 pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};
@@ -30,6 +32,37 @@ pub use wheel_speeds::WheelSpeeds;
 
 use crate::clock::Clock;
 use crate::ids::RobotId;
+use crate::state::RegisterState;
+use handling::Handling;
+use pilot::Pilot;
+
+/// What lies between body and mind: every robot has it, in this process or another.
+pub(crate) fn plugin(app: &mut App) {
+    app.match_component::<Robot>().starts(Robot::at_start);
+    app.match_component::<Pilot>()
+        .reflected()
+        .may_start(|start: &RobotStart, _| start.piloted.then(Pilot::default));
+    app.match_component::<OffPitch>();
+    app.match_component::<Orders>().starts(Orders::at_start);
+    app.match_component::<Percepts>()
+        .starts(|_: &RobotStart, _| Percepts::default())
+        .on(|percepts, _: &PutDown, _| *percepts = Percepts::default())
+        .on(|percepts, _: &SwitchedOn, _| *percepts = Percepts::default());
+    app.match_component::<Odometry>().starts(|start: &RobotStart, _| Odometry::new(start.seed, start.id));
+    app.match_component::<SteeringIntent>()
+        .starts(|_: &RobotStart, _| SteeringIntent::Stop)
+        .on(|intent, _: &PutDown, _| *intent = SteeringIntent::Stop)
+        .on(|intent, _: &SwitchedOff, _| *intent = SteeringIntent::Stop);
+    app.match_component::<KickIntent>().starts(|_: &RobotStart, _| KickIntent::Nothing);
+    app.match_component::<HeadIntent>().starts(|_: &RobotStart, _| HeadIntent::default());
+    app.match_component::<Head>().starts(|_: &RobotStart, _| Head::default());
+    app.match_component::<DriveCommand>()
+        .starts(|start: &RobotStart, _| DriveCommand::idle(&start.kind))
+        .on(DriveCommand::stop);
+    app.match_component::<Handling>()
+        .starts(|start: &RobotStart, _| Handling::new(start.seed, start.id))
+        .on(|handling, _: &PutDown, _| handling.let_go());
+}
 
 /// A robot; its entity is its drive unit. Its health is changed by the Script stage only.
 #[derive(Component, Clone, Debug)]
@@ -47,6 +80,12 @@ impl Robot {
     pub fn new(kind: Arc<RobotKind>, sensing: Arc<Sensing>, clock: &Clock) -> Robot {
         let decision_ticks = clock.ticks(1.0 / kind.control_hz);
         Robot { kind, sensing, health: Health::default(), remote: false, decision_ticks }
+    }
+
+    fn at_start(start: &RobotStart, _: &World) -> Robot {
+        let mut robot = Robot::new(start.kind.clone(), start.sensing.clone(), &start.clock);
+        robot.health.crashed = !start.on;
+        robot
     }
 
     /// Whether the robot's control system decides in this tick, and here.
@@ -89,6 +128,12 @@ impl DriveCommand {
         match kind.drive {
             Drive::Differential(_) => DriveCommand::Wheels(WheelSpeeds::default()),
             Drive::Walker(_) => DriveCommand::Gait(Gait::default()),
+        }
+    }
+
+    fn stop(&mut self, _: &PutDown, owner: EntityRef) {
+        if let Some(robot) = owner.get::<Robot>() {
+            *self = DriveCommand::idle(&robot.kind);
         }
     }
 

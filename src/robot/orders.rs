@@ -5,6 +5,7 @@ use std::fmt;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::RobotStart;
 use crate::geometry::Pose;
 
 /// The state that a robot is told to be in.
@@ -38,6 +39,12 @@ impl Orders {
     /// Whether the robot serves a penalty, off the pitch or where it stands.
     pub fn is_penalised(&self) -> bool {
         self.state == RobotState::Penalised
+    }
+
+    /// A robot that has been told where it is plays at once.
+    pub(super) fn at_start(start: &RobotStart, _: &World) -> Orders {
+        let state = if start.told.is_some() { RobotState::Playing } else { RobotState::Initial };
+        Orders { state, place: None }
     }
 
     /// Whether the robot may move by itself.

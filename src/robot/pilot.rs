@@ -7,6 +7,7 @@ use crate::robot::KickIntent;
 
 /// Put on a robot that a person drives; the keys are read by the window and written in the Script stage.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
+#[reflect(Component)]
 pub struct Pilot {
     /// Share of the top speed, -1 to 1.
     pub throttle: f32,

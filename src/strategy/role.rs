@@ -7,6 +7,7 @@ use crate::protocol::role_swap::RoleIndex;
 
 /// A robot's role: an index into its strategy's roles.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Component)]
 pub struct Role(pub usize);
 
 /// A role by its name, and its place among the strategy's roles once the strategy is loaded.

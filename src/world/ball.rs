@@ -13,9 +13,12 @@ use crate::pitch::BallKind;
 use crate::rng::{Dice, Seed};
 use crate::robot::{Robot, Scoop};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::world::physics::{Bodies, step};
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_component::<BallDice>();
+    app.match_component::<Rolling>().on(|rolling, put: &BallPut, _| rolling.0 = put.velocity);
     app.add_systems(Tick, (hold_ball_in_scoops, roll_ball).chain().before(step).in_set(TickSystems::Physics));
 }
 
@@ -26,6 +29,12 @@ pub struct Ball;
 /// The velocity in m/s at which the ball's surface rolls: equal to its velocity once it no longer slides.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rolling(pub Vec2);
+
+/// Somebody has put the ball somewhere, rolling at this velocity, m/s.
+#[derive(Clone, Copy, Debug)]
+pub struct BallPut {
+    pub velocity: Vec2,
+}
 
 /// The carpet's seams: small turns of a rolling ball.
 #[derive(Component, Clone, Debug)]

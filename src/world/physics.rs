@@ -4,7 +4,9 @@
 //! Rapier's own body set, so a tick costs little more than Rapier itself.
 
 mod footprint;
+mod put;
 mod room;
+mod saved;
 mod walls;
 
 use bevy::ecs::schedule::{ScheduleLabel, SingleThreadedExecutor};
@@ -21,7 +23,7 @@ use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
 use footprint::place_of;
 pub use footprint::{Footprint, trailer_shape, unit_shapes};
-pub use room::Room;
+pub use put::{Put, push};
 pub use walls::wall_boxes;
 
 pub(super) fn plugin(app: &mut App) {
@@ -32,6 +34,7 @@ pub(super) fn plugin(app: &mut App) {
     if !app.is_plugin_added::<TransformPlugin>() {
         app.add_plugins(TransformPlugin);
     }
+    saved::plugin(app);
     app.insert_resource(RapierContextInitialization::NoAutomaticRapierContext)
         .add_plugins(RapierPhysicsPlugin::<NoUserData>::default().with_default_system_setup(false))
         .init_resource::<TimestepMode>()
@@ -101,7 +104,7 @@ impl Bodies<'_, '_> {
     }
 }
 
-/// Opens an empty physical world with the walls of a pitch, each with a mark; whatever was there before is gone.
+/// Opens an empty physical world with the walls of a pitch, all with a mark; whatever was there before is gone.
 pub fn open_world(world: &mut World, pitch: &Pitch, mark: impl Bundle + Copy) {
     let mut contexts = world.query_filtered::<Entity, With<RapierContextSimulation>>();
     for context in contexts.iter(world).collect::<Vec<_>>() {
@@ -109,7 +112,7 @@ pub fn open_world(world: &mut World, pitch: &Pitch, mark: impl Bundle + Copy) {
     }
     let mut simulation = RapierContextSimulation::default();
     set_contacts(&mut simulation.integration_parameters);
-    world.spawn((Name::new("physics"), DefaultRapierContext, simulation));
+    world.spawn((Name::new("physics"), mark, DefaultRapierContext, simulation));
     for (at, half) in wall_boxes(pitch) {
         world.spawn((
             Name::new("wall"),
@@ -133,11 +136,11 @@ pub fn register_bodies(world: &mut World) {
 /// Whether two bodies touch.
 pub fn touch(
     simulation: &RapierContextSimulation,
-    bodies: &Bodies,
+    bodies: &RapierRigidBodySet,
     a: &RapierRigidBodyHandle,
     b: &RapierRigidBodyHandle,
 ) -> bool {
-    let (Some(a), Some(b)) = (bodies.get(a), bodies.get(b)) else { return false };
+    let (Some(a), Some(b)) = (bodies.bodies.get(a.0), bodies.bodies.get(b.0)) else { return false };
     let pairs = a.colliders().iter().flat_map(|a| b.colliders().iter().map(move |b| (*a, *b)));
     let contact = |(a, b)| simulation.narrow_phase.contact_pair(a, b);
     pairs.filter_map(contact).any(|pair| pair.has_any_active_contact())

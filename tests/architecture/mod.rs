@@ -8,13 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use imports::{House, read_house};
 use pathfinding::prelude::strongly_connected_components;
 
-/// Each room with the rooms that it may import from. All may import from the ground: `schedule clock ids rng geometry`.
+/// Each room with the rooms that it may import from. All may import from the ground: `schedule state clock ids rng geometry`.
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("data", &[]),
     ("pitch", &["data"]),
     ("protocol", &["data"]),
     ("strategy", &["data", "pitch", "protocol"]),
-    ("robot", &["data"]),
+    ("robot", &["data", "strategy"]),
     ("comms", &["data", "protocol", "robot"]),
     ("world", &["data", "pitch", "robot"]),
     ("mind", &["comms", "pitch", "protocol", "robot", "strategy"]),
@@ -24,7 +24,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
 ];
 
 /// The files that every room may import from, and that import from no room.
-const GROUND: &[&str] = &["clock", "geometry", "ids", "rng", "schedule"];
+const GROUND: &[&str] = &["clock", "geometry", "ids", "rng", "schedule", "state"];
 
 /// A crate, the only rooms that may name it, and why.
 const ONLY_IN: &[(&str, &[&str], &str)] = &[

@@ -11,7 +11,10 @@ pub use message::{
 };
 
 use crate::comms::tcm::RegisterData;
+use crate::robot::RobotStart;
+use crate::state::RegisterState;
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_component::<Inbox>().starts(|_: &RobotStart, _| Inbox::default());
     app.register_data::<TeamMessage>().add_observer(inbox::put_into_inbox);
 }

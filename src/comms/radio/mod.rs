@@ -27,8 +27,18 @@ use crate::geometry::Pose;
 use crate::ids::{MatchEntity, RobotId};
 use crate::robot::Robot;
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
+
+/// What is written down of packets, whatever carries them.
+pub(super) fn record_plugin(app: &mut App) {
+    app.match_resource::<RadioRecord>().starts_empty();
+}
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_resource::<Channel>();
+    app.match_resource::<Interference>().starts_empty();
+    app.match_resource::<FaultRules>();
+    app.match_component::<InFlight>();
     let receives = deliver_datagrams.in_set(TickSystems::Deliver).before(TcmSystems::Receive);
     let sends = transmit_datagrams.in_set(TickSystems::Transmit).after(TcmSystems::Send);
     app.add_systems(Tick, (receives.in_set(RadioSystems), sends.in_set(RadioSystems)));

@@ -5,7 +5,9 @@ use bevy::prelude::*;
 use super::data::{Data, TypeInfo};
 use super::external_message::{DataType, Module, Peer};
 use super::queues::{QueueCounters, QueueRule, Queues};
+use super::settings::TcmSettings;
 use crate::ids::{PlayerNumber, RobotId};
+use crate::robot::RobotStart;
 
 /// A robot's proxy of the TCM: it keeps what modules want to say until the TCM is ready for it.
 #[derive(Component, Clone, Debug)]
@@ -28,6 +30,10 @@ impl TcmClient {
     /// A client without messages, whose queues all have this rule.
     pub fn new(robot: RobotId, rule: QueueRule) -> TcmClient {
         TcmClient { team: robot.team as u8, queues: Queues::new(rule), dropped: Vec::new() }
+    }
+
+    pub(super) fn at_start(start: &RobotStart, world: &World) -> TcmClient {
+        TcmClient::new(start.id, world.resource::<TcmSettings>().queue)
     }
 
     /// To every team mate, and to the computers that listen.

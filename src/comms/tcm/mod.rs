@@ -32,17 +32,28 @@ pub use settings::TcmSettings;
 
 use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::robot::Robot;
+use crate::robot::{Robot, RobotStart, SwitchedOff};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use client::Outgoing;
 use counters::{Dropped, TypeCounters};
 use fragments::{Assembly, cut};
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_resource::<Incoming>().starts_empty();
+    app.match_resource::<OnAir>().starts_empty();
+    app.match_resource::<MessageBudgets>();
+    app.match_resource::<Addresses>();
+    app.match_resource::<TcmSettings>();
+    app.match_component::<TcmClient>()
+        .starts(TcmClient::at_start)
+        .on(|client, _: &SwitchedOff, _| client.clear());
+    app.match_component::<Tcm>()
+        .starts(Tcm::at_start)
+        .on(|tcm, CountFrom(counter), _| tcm.counter = *counter);
     app.init_resource::<Registry>()
-        .init_resource::<Incoming>()
-        .init_resource::<OnAir>()
         .init_resource::<Addresses>()
+        .init_resource::<TcmSettings>()
         .configure_sets(Tick, TcmSystems::Receive.in_set(TickSystems::Deliver))
         .configure_sets(Tick, TcmSystems::Send.in_set(TickSystems::Transmit))
         .add_systems(Tick, receive_messages.in_set(TcmSystems::Receive))
@@ -81,6 +92,10 @@ pub struct Addresses(pub Directory);
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Incoming(pub Vec<(RobotId, Arc<[u8]>)>);
 
+/// A program begins in the midst of a match to send what another has sent before: its messages are counted from elsewhere.
+#[derive(Clone, Copy, Debug)]
+pub struct CountFrom(pub u32);
+
 /// The TCM of one robot.
 #[derive(Component, Clone, Debug)]
 pub struct Tcm {
@@ -102,6 +117,10 @@ impl Tcm {
             assembly: Assembly::new(settings.limits(clock)),
             counters: TypeCounters::default(),
         }
+    }
+
+    fn at_start(start: &RobotStart, world: &World) -> Tcm {
+        Tcm::new(*world.resource::<TcmSettings>(), &start.clock)
     }
 
     /// Counts messages from here on: a program that restarts begins elsewhere.

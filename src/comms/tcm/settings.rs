@@ -1,5 +1,6 @@
 //! How a team communication module is set up, as data: a part of a match file.
 
+use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
 use super::fragments::{HEADER, LARGEST_DATAGRAM, Limits, USUAL_DATAGRAM};
@@ -8,7 +9,7 @@ use crate::clock::Clock;
 use crate::data::{Bound, Fault, Validate, check_count};
 
 /// A field that a file leaves out has its default.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TcmSettings {
     /// Largest datagram, bytes; longer messages are cut.

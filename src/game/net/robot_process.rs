@@ -25,7 +25,7 @@ use crate::robot::handling::{Grip, Handling};
 use crate::robot::{Head, HeadIntent, KickIntent, Odometry, OffPitch, Percepts, RobotState, SteeringIntent};
 use crate::schedule::Tick;
 use crate::strategy::{Activity, Role};
-use crate::{comms, mind, schedule};
+use crate::{comms, mind, pitch, robot, schedule};
 
 /// How often a robot that waits looks whether it is to stop.
 const LOOK: Duration = Duration::from_millis(100);
@@ -299,7 +299,8 @@ impl RobotProcess {
 fn mind(plan: &MatchPlan, id: RobotId, carrier: UdpCarrier) -> (App, Entity) {
     let mut app = App::new();
     // Its mind, without a world around it.
-    app.add_plugins((schedule::plugin, comms::modules, super::robot_plugin, mind::plugin));
+    let contract = (schedule::plugin, pitch::plugin, robot::plugin);
+    app.add_plugins((contract, comms::modules, super::robot_plugin, mind::plugin));
     app.finish();
     app.cleanup();
     let entity = start_mind(app.world_mut(), plan, id);

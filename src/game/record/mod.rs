@@ -23,12 +23,14 @@ use crate::mind::teamwork::Swapping;
 use crate::rng::Seed;
 use crate::robot::{OffPitch, Trailer};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::strategy::{Activity, Role};
 use crate::world::ball::Ball;
 use crate::world::referee::{MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
     let systems = (digest, measure, bookings::watch_bookings, overlap::watch_overlaps, move_clock).chain();
+    app.match_resource::<Record>();
     app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
 

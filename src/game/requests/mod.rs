@@ -20,6 +20,8 @@ mod tests;
 use bevy::prelude::*;
 
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
+use crate::strategy::Strategies;
 use crate::world::referee::PenaltiesDue;
 pub use queue::{RequestLog, Requests, Script};
 pub use request::{
@@ -35,6 +37,7 @@ pub(super) fn plugin(app: &mut App) {
         referee_box::hear_referee_box,
         remote::hear_remote_robots,
     );
+    app.match_resource::<Script>();
     app.init_resource::<Script>()
         .add_systems(Tick, queue::follow_script.in_set(DoorSystems::Script))
         .add_systems(Tick, of_a_match.chain().in_set(DoorSystems::CarryOut).after(robots::change_robots));
@@ -49,8 +52,10 @@ pub(crate) fn door(app: &mut App) {
         DoorSystems::CarryOut.run_if(queue::is_any_due),
     );
     let of_minds = (strategies::change_strategies, robots::change_robots);
-    app.init_resource::<Requests>()
-        .init_resource::<PenaltiesDue>()
+    app.match_resource::<Requests>().starts_empty();
+    app.match_resource::<RequestLog>();
+    app.match_resource::<Strategies>();
+    app.init_resource::<PenaltiesDue>()
         .configure_sets(Tick, order.chain().in_set(TickSystems::Script))
         .add_systems(Tick, queue::open_door.in_set(DoorSystems::Open))
         .add_systems(Tick, of_minds.chain().in_set(DoorSystems::CarryOut));

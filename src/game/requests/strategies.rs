@@ -9,21 +9,21 @@ use super::request::Request;
 use crate::clock::Clock;
 use crate::data::Bound;
 use crate::ids::{RobotId, Team};
-use crate::mind::perception::Memory;
-use crate::strategy::{Activity, Role, Strategies, Strategy};
-
-type Playing<'a> = (&'a RobotId, &'a mut Role, &'a mut Activity, &'a mut Memory);
+use crate::robot::StrategyChanged;
+use crate::state::event;
+use crate::strategy::{Strategies, Strategy};
 
 pub(super) fn change_strategies(
     clock: Res<Clock>,
     requests: Res<Requests>,
     mut strategies: ResMut<Strategies>,
-    mut robots: Query<Playing>,
+    mut commands: Commands,
+    robots: Query<(Entity, &RobotId)>,
 ) {
     for request in requests.due() {
         match request {
             Request::ChangeStrategy { team, strategy } => {
-                change_strategy(*team, strategy, &clock, &mut strategies, &mut robots);
+                change_strategy(*team, strategy, &clock, &mut strategies, (&mut commands, &robots));
             }
             Request::SetWeight { team, assemblage, term, weight } if weight.is_finite() => {
                 let strategy = Arc::make_mut(&mut strategies.0[team.index()]);
@@ -42,17 +42,14 @@ fn change_strategy(
     new: &Arc<Strategy>,
     clock: &Clock,
     strategies: &mut Strategies,
-    robots: &mut Query<Playing>,
+    (commands, robots): (&mut Commands, &Query<(Entity, &RobotId)>),
 ) {
     if new.can_follow(strategies.of(team)).is_err() {
         return;
     }
     let old = std::mem::replace(&mut strategies.0[team.index()], new.clone());
-    for (id, mut role, mut activity, mut memory) in robots.iter_mut().filter(|(id, ..)| id.team == team) {
-        let at_kick_off = new.players.get(usize::from(id.number)).copied().unwrap_or(new.players[0]);
-        let name = &old.roles[role.0].name;
-        role.0 = new.roles.iter().position(|spec| spec.name == *name).unwrap_or(at_kick_off);
-        *activity = activity.carried_over(&old, new, role.0, clock.tick);
-        *memory = Memory::new(new.slots);
+    let changed = StrategyChanged { old, new: new.clone(), tick: clock.tick };
+    for (robot, _) in robots.iter().filter(|(_, id)| id.team == team) {
+        commands.entity(robot).queue(event(changed.clone()));
     }
 }

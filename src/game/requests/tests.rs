@@ -16,6 +16,7 @@ use crate::geometry::Pose;
 use crate::ids::RobotId;
 use crate::ids::Team::{self, Away, Home};
 use crate::mind::perception::Memory;
+use crate::mind::{behaviour, teamwork};
 use crate::rng::Seed;
 use crate::robot::pilot::Pilot;
 use crate::robot::{HeadIntent, KickIntent, Restart, SteeringIntent};
@@ -44,7 +45,7 @@ fn one() -> Strategy {
 
 fn app() -> App {
     let mut app = App::new();
-    app.add_plugins((crate::schedule::plugin, plugin));
+    app.add_plugins((crate::schedule::plugin, teamwork::state, behaviour::state, plugin));
     let strategy = Arc::new(one());
     for id in [FIRST, SECOND] {
         let role = strategy.players[0];

@@ -16,13 +16,44 @@ use crate::clock::Clock;
 use crate::mind::perception::{Memory, Perception};
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
-use crate::robot::OffPitch;
+use crate::robot::{OffPitch, PutDown, RobotStart, StrategyChanged, SwitchedOn};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
+use crate::strategy::Role;
 use crate::strategy::language::Feature;
 use crate::strategy::{Part, Strategies, Strategy};
 
+/// What this stage remembers of a robot; the memories of operators are of the Motor stage as well.
+pub(crate) fn state(app: &mut App) {
+    app.match_component::<Activity>()
+        .starts(|start: &RobotStart, _| Activity::new(&start.strategy, start.role, 0))
+        .on(start_again)
+        .on(|activity, on: &SwitchedOn, owner| {
+            *activity = Activity::new(&on.strategy, role_of(owner), on.tick)
+        })
+        .on(|activity, StrategyChanged { old, new, tick }, owner| {
+            *activity = activity.carried_over(old, new, role_of(owner), *tick);
+        });
+    app.match_component::<Memory>()
+        .starts(|start: &RobotStart, _| Memory::new(start.strategy.slots))
+        .on(|memory, put: &PutDown, _| *memory = Memory::new(put.strategy.slots))
+        .on(|memory, on: &SwitchedOn, _| *memory = Memory::new(on.strategy.slots))
+        .on(|memory, changed: &StrategyChanged, _| *memory = Memory::new(changed.new.slots));
+}
+
 pub(super) fn plugin(app: &mut App) {
+    state(app);
     app.add_systems(Tick, choose_activities.in_set(TickSystems::Behaviour));
+}
+
+/// A robot that was put down begins from the start of its machine; what it did before stays to be seen.
+fn start_again(activity: &mut Activity, put: &PutDown, owner: EntityRef) {
+    let history = std::mem::take(&mut activity.history);
+    *activity = Activity { history, ..Activity::new(&put.strategy, role_of(owner), put.tick) };
+}
+
+fn role_of(robot: EntityRef) -> usize {
+    robot.get::<Role>().map_or(0, |role| role.0)
 }
 
 fn choose_activities(

@@ -24,11 +24,14 @@ use crate::mind::schemas::combine::{weighted_sum, winner_take_all};
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
 use crate::rng::{Dice, Seed};
-use crate::robot::{KickIntent, OffPitch, RobotKind, RobotState};
+use crate::robot::{KickIntent, OffPitch, RobotKind, RobotStart, RobotState};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::strategy::{Activity, Assemblage, Combination, State, Strategies, Turn};
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_component::<Contributions>().starts(|_: &RobotStart, _| Contributions::default());
+    app.match_component::<MotorDice>().starts(|start: &RobotStart, _| MotorDice::new(start.seed, start.id));
     app.add_systems(Tick, (run_assemblages, head::aim_heads).in_set(TickSystems::Motor));
 }
 

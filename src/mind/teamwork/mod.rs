@@ -20,12 +20,36 @@ pub use booking::Booking;
 pub use claims::{Claim, Claims};
 pub use goalie::GoalieWhereabouts;
 pub use reports::{BallReports, Reported};
-pub use swap::Swapping;
+pub use swap::{SwapAsked, Swapping};
 pub use team_model::{BookingStatus, LastSent, TeamModel, kick_off_roles};
 
+use crate::ids::RobotId;
+use crate::robot::{Restart, RobotStart, StrategyChanged, SwitchedOn};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
+use crate::strategy::{Role, Strategy};
+
+/// What this stage remembers of a robot.
+pub(crate) fn state(app: &mut App) {
+    app.match_component::<Swapping>()
+        .may_start(|start: &RobotStart, _| Swapping::new(&start.strategy, start.id, start.seed))
+        .on(|swapping, on: &SwitchedOn, _| swapping.restart(on.restart))
+        .on(|swapping, SwapAsked(reassignment), _| swapping.asked = Some(reassignment.clone()));
+    app.match_component::<Role>()
+        .reflected()
+        .starts(|start: &RobotStart, _| Role(start.role))
+        .on(take_role_again)
+        .on(keep_role);
+    app.match_component::<TeamModel>()
+        .starts(|start: &RobotStart, _| TeamModel::new(&start.strategy))
+        .on(TeamModel::restart);
+    app.match_component::<Booking>()
+        .may_start(|start: &RobotStart, _| Booking::new(&start.strategy, start.id, &start.clock))
+        .on(|booking, _: &SwitchedOn, _| booking.0.restart());
+}
 
 pub(super) fn plugin(app: &mut App) {
+    state(app);
     let in_order = (
         listen::hear_news,
         swap::swap_roles,
@@ -35,4 +59,24 @@ pub(super) fn plugin(app: &mut App) {
         listen::take_messages,
     );
     app.add_systems(Tick, in_order.chain().in_set(TickSystems::Teamwork));
+}
+
+/// A robot that is switched on has the role that its protocol remembers, or that of the kick-off.
+fn take_role_again(role: &mut Role, on: &SwitchedOn, owner: EntityRef) {
+    if let Some(swapping) = owner.get::<Swapping>() {
+        role.0 = usize::from(swapping.machine.role());
+    } else if on.restart == Restart::Lost {
+        role.0 = kick_off_role(owner, &on.strategy).unwrap_or(role.0);
+    }
+}
+
+/// The role of the same name, or that of the kick-off.
+fn keep_role(role: &mut Role, StrategyChanged { old, new, .. }: &StrategyChanged, owner: EntityRef) {
+    let name = &old.roles[role.0].name;
+    let same = new.roles.iter().position(|spec| spec.name == *name);
+    role.0 = same.or_else(|| kick_off_role(owner, new)).unwrap_or(new.players[0]);
+}
+
+fn kick_off_role(robot: EntityRef, strategy: &Strategy) -> Option<usize> {
+    strategy.players.get(usize::from(robot.get::<RobotId>()?.number)).copied()
 }

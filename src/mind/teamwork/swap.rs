@@ -38,9 +38,13 @@ pub struct Swapping {
     /// What the team will look like if its attempt succeeds.
     planned: Option<Assignment>,
     /// A swap that a script wants, whatever the policy says.
-    pub asked: Option<Reassignment>,
+    pub(super) asked: Option<Reassignment>,
     dice: Dice,
 }
+
+/// A person or a script wants a robot to decide that roles are swapped.
+#[derive(Clone, Debug)]
+pub struct SwapAsked(pub Reassignment);
 
 impl Swapping {
     /// The part of a robot whose team has just kicked off; `None` if its strategy swaps no roles.
@@ -67,7 +71,7 @@ impl Swapping {
     }
 
     /// The robot was switched off and on again.
-    pub fn restart(&mut self, restart: Restart) {
+    pub(super) fn restart(&mut self, restart: Restart) {
         self.machine.restart(restart == Restart::Kept);
         self.deadlines = [None; 3];
         self.policy = PolicyState::default();

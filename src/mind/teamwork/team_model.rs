@@ -11,6 +11,7 @@ use crate::comms::messages::Values;
 use crate::ids::PlayerNumber;
 use crate::protocol::policy::Valued;
 use crate::protocol::role_swap::{Assignment, RoleIndex};
+use crate::robot::{Restart, SwitchedOn};
 use crate::strategy::Strategy;
 
 /// What a robot believes of its team; written by the Teamwork stage.
@@ -84,6 +85,14 @@ impl TeamModel {
             last_sent: LastSent::default(),
             announce: false,
         }
+    }
+
+    /// Of what the robot knew only the roles are left, if it recalls them.
+    pub(super) fn restart(&mut self, on: &SwitchedOn, _: EntityRef) {
+        *self = match on.restart {
+            Restart::Kept => TeamModel::of(self.roles.clone()),
+            Restart::Lost => TeamModel::new(&on.strategy),
+        };
     }
 
     pub(super) fn values_of(&self, number: PlayerNumber, clock: &Clock) -> Option<Valued> {

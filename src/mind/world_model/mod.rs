@@ -16,11 +16,16 @@ use crate::comms::messages::Inbox;
 use crate::ids::RobotId;
 use crate::pitch::Pitch;
 use crate::robot::handling::Handling;
-use crate::robot::{Odometry, OffPitch, Percepts, Robot};
+use crate::robot::{Odometry, OffPitch, Percepts, PutDown, Robot, RobotStart, SwitchedOn};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::strategy::Strategies;
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_component::<WorldModel>()
+        .starts(|start: &RobotStart, _| start.told.map_or_else(WorldModel::default, WorldModel::told))
+        .on(|model, put: &PutDown, _| *model = WorldModel::told(put.told))
+        .on(|model, _: &SwitchedOn, _| *model = WorldModel::default());
     app.add_systems(Tick, update_world_models.in_set(TickSystems::WorldModel));
 }
 

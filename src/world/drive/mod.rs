@@ -21,13 +21,15 @@ use crate::ids::RobotId;
 use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{
-    DifferentialDrive, Drive, DriveCommand, Gait, Odometry, Orders, Robot, RobotBodies, SteeringIntent,
-    TrailerKind, Walker, WheelSpeeds,
+    DifferentialDrive, Drive, DriveCommand, Gait, Odometry, Orders, Robot, RobotBodies, RobotStart,
+    SteeringIntent, TrailerKind, Walker, WheelSpeeds,
 };
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_component::<GaitError>().starts(|start: &RobotStart, _| GaitError::new(start.seed, start.id));
     app.add_systems(
         Tick,
         ((command_motors, push_bodies).chain(), neck::turn_heads).in_set(TickSystems::Drive),

@@ -29,14 +29,18 @@ pub use state::{MatchState, Removal};
 use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::world::gamecontroller::BoxNews;
 use sight::RefereeView;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Whistles>()
-        .init_resource::<Calls>()
-        .init_resource::<PenaltiesDue>()
-        .add_systems(Tick, judge.in_set(TickSystems::Referee));
+    app.match_resource::<MatchState>();
+    app.match_resource::<RuleBook>();
+    app.match_resource::<BoxNews>();
+    app.match_resource::<Whistles>().starts_empty();
+    app.match_resource::<Calls>().starts_empty();
+    app.match_resource::<PenaltiesDue>().starts_empty();
+    app.add_systems(Tick, judge.in_set(TickSystems::Referee));
 }
 
 /// The last decisions, oldest first, with their ticks.

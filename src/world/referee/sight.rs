@@ -15,7 +15,7 @@ use crate::pitch::Pitch;
 use crate::robot::handling::Handling;
 use crate::robot::{DriveCommand, OffPitch, RobotBodies};
 use crate::world::ball::Ball;
-use crate::world::physics::{Bodies, touch};
+use crate::world::physics::touch;
 
 /// A robot as the referee sees it.
 #[derive(QueryData)]
@@ -36,7 +36,7 @@ type BallBody = (&'static Pose, &'static RapierRigidBodyHandle);
 pub(crate) struct RefereeView<'w, 's> {
     pitch: Res<'w, Pitch>,
     book: Res<'w, RuleBook>,
-    bodies: Bodies<'w, 's>,
+    bodies: Single<'w, 's, &'static RapierRigidBodySet>,
     simulation: Single<'w, 's, &'static RapierContextSimulation>,
     kind: Res<'w, BallKind>,
     ball: Single<'w, 's, BallBody, With<Ball>>,
@@ -88,7 +88,7 @@ impl Sight {
     fn whole(
         ball: (&Pose, &RapierRigidBodyHandle),
         players: &Players,
-        bodies: &Bodies,
+        bodies: &RapierRigidBodySet,
         simulation: &RapierContextSimulation,
     ) -> Sight {
         let mut sight = Sight::of_places(ball.0.position, players);

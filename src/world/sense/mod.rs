@@ -28,12 +28,17 @@ use crate::ids::RobotId;
 use crate::pitch::BallKind;
 use crate::rng::{Dice, Seed};
 use crate::robot::handling::Handling;
-use crate::robot::{Drive, DriveCommand, Head, OffPitch, Robot, Trailer};
+use crate::robot::{Drive, DriveCommand, Head, OffPitch, PutDown, Robot, RobotStart, SwitchedOn, Trailer};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::world::ball::Ball;
 use crate::world::referee::MatchState;
 
 pub(super) fn plugin(app: &mut App) {
+    app.match_component::<Eyesight>()
+        .starts(|start: &RobotStart, _| Eyesight::new(&start.sensing, start.seed, start.id))
+        .on(|eyesight, _: &PutDown, _| eyesight.blink())
+        .on(|eyesight, _: &SwitchedOn, _| eyesight.blink());
     app.add_systems(Tick, (take_frames, deliver_frames, read_odometry).chain().in_set(TickSystems::Sense));
 }
 
@@ -63,7 +68,7 @@ impl Eyesight {
     }
 
     /// Forgets the frames under way, as when people carry the robot elsewhere.
-    pub fn blink(&mut self) {
+    fn blink(&mut self) {
         self.under_way.clear();
     }
 }

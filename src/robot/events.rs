@@ -1,0 +1,61 @@
+//! What happens to a robot from outside: its state starts and changes with these events, as it is
+//! [registered](crate::state).
+
+use std::sync::Arc;
+
+use super::{Restart, RobotKind, Sensing};
+use crate::clock::Clock;
+use crate::geometry::Pose;
+use crate::ids::RobotId;
+use crate::rng::Seed;
+use crate::strategy::Strategy;
+
+/// A robot comes into a match.
+#[derive(Clone, Debug)]
+pub struct RobotStart {
+    pub id: RobotId,
+    /// Index into the strategy's roles.
+    pub role: usize,
+    pub kind: Arc<RobotKind>,
+    pub sensing: Arc<Sensing>,
+    pub strategy: Arc<Strategy>,
+    pub seed: Seed,
+    pub clock: Clock,
+    /// In the pitch frame.
+    pub pose: Pose,
+    /// Where it has been told that it is, in its team frame. Such a robot plays at once.
+    pub told: Option<Pose>,
+    /// Whether it is switched on.
+    pub on: bool,
+    /// Whether a person drives it.
+    pub piloted: bool,
+}
+
+/// People have put a robot down somewhere and told it where it is.
+#[derive(Clone, Debug)]
+pub struct PutDown {
+    /// In its team frame.
+    pub told: Pose,
+    pub strategy: Arc<Strategy>,
+    pub tick: u64,
+}
+
+/// A robot's computer goes off.
+#[derive(Clone, Copy, Debug)]
+pub struct SwitchedOff;
+
+/// A robot's computer comes on again. What the robot was in the middle of is gone in any case.
+#[derive(Clone, Debug)]
+pub struct SwitchedOn {
+    pub restart: Restart,
+    pub strategy: Arc<Strategy>,
+    pub tick: u64,
+}
+
+/// A robot's team plays on with another strategy.
+#[derive(Clone, Debug)]
+pub struct StrategyChanged {
+    pub old: Arc<Strategy>,
+    pub new: Arc<Strategy>,
+    pub tick: u64,
+}
