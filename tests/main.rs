@@ -18,6 +18,8 @@ mod role_swap;
 mod rolling_bodies;
 mod scenarios;
 mod schedule;
+mod single_writer;
+mod snapshot;
 mod squeezed_ball;
 mod strategies;
 mod support;

@@ -7,31 +7,14 @@ use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
 use crate::app::view::state::{Inspector, PanelSystems};
-use crate::clock::Clock;
-use crate::geometry::{Pose, Twist};
-use crate::robot::pilot::Pilot;
-use crate::strategy::Role;
+use crate::ids::MatchEntity;
+use crate::state::StateRegister;
 
 pub(super) fn plugin(app: &mut App) {
-    register_what_can_be_looked_at(app);
     app.add_plugins(DefaultInspectorConfigPlugin).add_systems(
         EguiPrimaryContextPass,
         show_world.in_set(PanelSystems::Floating).run_if(|inspector: Res<Inspector>| inspector.world),
     );
-}
-
-/// The simulation's own types that can be reflected; without this the view only names them.
-fn register_what_can_be_looked_at(app: &mut App) {
-    app.register_type::<Pose>()
-        .register_type::<Twist>()
-        .register_type::<Role>()
-        .register_type::<Pilot>()
-        .register_type::<Clock>()
-        .register_type_data::<Pose, ReflectComponent>()
-        .register_type_data::<Twist, ReflectComponent>()
-        .register_type_data::<Role, ReflectComponent>()
-        .register_type_data::<Pilot, ReflectComponent>()
-        .register_type_data::<Clock, ReflectResource>();
 }
 
 fn show_world(world: &mut World) -> Result {
@@ -43,13 +26,35 @@ fn show_world(world: &mut World) -> Result {
         |ui| {
             ui.weak("To look at. A match with values changed here cannot be repeated.");
             ui.separator();
-            egui::ScrollArea::both()
-                .auto_shrink(false)
-                .show(ui, |ui| bevy_inspector::ui_for_world(world, ui));
+            egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+                show_match(world, ui);
+                bevy_inspector::ui_for_world(world, ui);
+            });
         },
     );
     if let Some(mut inspector) = world.get_resource_mut::<Inspector>().filter(|_| !open) {
         inspector.world = false;
     }
     Ok(())
+}
+
+/// Everything that is registered as state of the match, by its resources and bodies.
+fn show_match(world: &mut World, ui: &mut egui::Ui) {
+    let kinds = world.resource::<StateRegister>().kinds().to_vec();
+    let mut bodies: Vec<(String, Entity)> = (world.query_filtered::<(Entity, &Name), With<MatchEntity>>())
+        .iter(world)
+        .map(|(entity, name)| (name.to_string(), entity))
+        .collect();
+    bodies.sort();
+    let show_kinds = |entity: Option<Entity>, ui: &mut egui::Ui| {
+        for (kind, text) in kinds.iter().filter_map(|kind| Some((kind, kind.tell(world, entity)?))) {
+            ui.collapsing(kind.name, |ui| ui.monospace(text));
+        }
+    };
+    ui.collapsing("Match", |ui| {
+        ui.collapsing("resources", |ui| show_kinds(None, ui));
+        for (name, entity) in &bodies {
+            ui.collapsing(name, |ui| show_kinds(Some(*entity), ui));
+        }
+    });
 }

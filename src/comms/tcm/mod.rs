@@ -50,7 +50,7 @@ pub(super) fn plugin(app: &mut App) {
         .on(|client, _: &SwitchedOff, _| client.clear());
     app.match_component::<Tcm>()
         .starts(Tcm::at_start)
-        .on(|tcm, CountFrom(counter), _| tcm.counter = *counter);
+        .on(|tcm, CountFrom(counter), _| tcm.count_from(*counter));
     app.init_resource::<Registry>()
         .init_resource::<Addresses>()
         .init_resource::<TcmSettings>()

@@ -38,7 +38,7 @@ pub(super) fn plugin(app: &mut App) {
 
 /// Where the copies go, home's and away's.
 #[derive(Resource)]
-pub(super) struct LeaguePorts {
+pub struct LeaguePorts {
     conn: UdpConn,
     to: [SocketAddr; 2],
     trouble: Option<String>,

@@ -26,6 +26,7 @@ pub use carrier::{CarrierFigures, UdpCarrier};
 pub use error::{NetworkError, start};
 pub use greeting::{Awaited, Greeting};
 pub use introduction::{Introduction, Particular};
+pub use league::LeaguePorts;
 pub use plan::{NetworkPlan, team_numbers_fault};
 pub use remote_messages::{RobotReply, Sensors};
 pub use remote_robots::RemoteFigures;
@@ -40,7 +41,6 @@ use crate::schedule::Tick;
 use crate::world::gamecontroller::BoxNews;
 use announcer::Announcer;
 use box_socket::BoxSocket;
-use league::LeaguePorts;
 use remote_robots::RemoteRobots;
 use timing::unused_number;
 
