@@ -44,9 +44,6 @@ const NEVER: &[(&str, &str, &str)] = &[
 /// Rooms in which files still import each other in circles; none may be added.
 const STILL_TIED: &[&str] = &["game"];
 
-/// Type names that still stand for more than one thing; none may be added.
-const STILL_TWICE: &[&str] = &["Bidder", "Bodies"];
-
 #[test]
 fn every_room_imports_only_from_the_rooms_that_the_table_allows() {
     let house = read_house();
@@ -127,7 +124,7 @@ fn a_type_name_is_defined_once() {
         places.entry(name).or_default().insert(file);
     }
     let twice: BTreeSet<String> = (places.into_iter())
-        .filter(|(name, files)| files.len() > 1 && !STILL_TWICE.contains(name))
+        .filter(|(_, files)| files.len() > 1)
         .map(|(name, files)| format!("{name} is defined in {files:?}"))
         .collect();
     assert!(twice.is_empty(), "{}", lines(&twice));

@@ -1,18 +1,8 @@
 //! The four requirements on ball booking (TeamChaos, section 4), watched in a match: for how long each was not met.
 
-use bevy::prelude::*;
 use serde::Serialize;
-use smallvec::SmallVec;
 
-use super::Record;
-use crate::clock::Clock;
-use crate::ids::{RobotId, Team};
-use crate::mind::teamwork::Booking;
-use crate::mind::world_model::WorldModel;
 use crate::protocol::b3p::Distance;
-use crate::robot::{Orders, Robot, RobotState};
-use crate::strategy::Strategies;
-use crate::strategy::teamwork::BallBooking;
 
 /// How well a team that books the ball has met the requirements so far. Times are seconds of play.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -59,22 +49,22 @@ impl Span {
 
 /// A robot in play that knows where the ball is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Bidder {
-    number: u8,
+pub(super) struct BallSeeker {
+    pub number: u8,
     /// From the ball, as the robot believes.
-    distance: Distance,
-    goes: bool,
+    pub distance: Distance,
+    pub goes: bool,
 }
 
 impl BookingFigures {
-    fn update(&mut self, bidders: &[Bidder], threshold: Distance, now: f64, dt: f64) {
-        let mut going = bidders.iter().filter(|bidder| bidder.goes);
+    pub(super) fn update(&mut self, seekers: &[BallSeeker], threshold: Distance, now: f64, dt: f64) {
+        let mut going = seekers.iter().filter(|seeker| seeker.goes);
         let first = going.next();
         let several = going.next().is_some();
-        let is_nearer = |booker: &Bidder| {
-            bidders.iter().any(|other| !other.goes && other.distance.is_nearer(threshold, booker.distance))
+        let is_nearer = |booker: &BallSeeker| {
+            seekers.iter().any(|other| !other.goes && other.distance.is_nearer(threshold, booker.distance))
         };
-        self.nobody_goes.update(first.is_none() && !bidders.is_empty(), dt);
+        self.nobody_goes.update(first.is_none() && !seekers.is_empty(), dt);
         self.several_go.update(several, dt);
         self.farther_goes.update(!several && first.is_some_and(is_nearer), dt);
         if let Some(booker) = first.filter(|_| !several) {
@@ -96,56 +86,27 @@ impl BookingFigures {
     }
 }
 
-type Bidding<'a> = (&'a RobotId, &'a Robot, &'a WorldModel, &'a Booking, &'a Orders);
-
-/// Robots that are penalised or off take no part.
-pub(super) fn watch_bookings(
-    clock: Res<Clock>,
-    strategies: Res<Strategies>,
-    mut record: ResMut<Record>,
-    robots: Query<Bidding>,
-) {
-    for team in Team::BOTH {
-        let Some(spec) = &strategies.of(team).teamwork.ball_booking else { continue };
-        let mut bidders: SmallVec<[Bidder; 8]> = (robots.iter())
-            .filter(|(id, robot, .., orders)| {
-                id.team == team && !robot.health.crashed && orders.state == RobotState::Playing
-            })
-            .filter_map(|(id, _, model, booking, _)| {
-                let goes = booking.0.goes();
-                let ball = model.ball.filter(|_| goes || booking.0.sees())?;
-                let distance = Distance::from_metres(ball.position.distance(model.pose.position));
-                Some(Bidder { number: id.number, distance, goes })
-            })
-            .collect();
-        bidders.sort_unstable_by_key(|bidder| bidder.number);
-        let BallBooking { threshold, .. } = *spec;
-        let threshold = Distance::from_metres(threshold);
-        record.bookings[team.index()].update(&bidders, threshold, clock.now(), f64::from(clock.dt));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const THRESHOLD: Distance = Distance(300);
 
-    fn bidder(number: u8, distance: u32, goes: bool) -> Bidder {
-        Bidder { number, distance: Distance(distance), goes }
+    fn seeker(number: u8, distance: u32, goes: bool) -> BallSeeker {
+        BallSeeker { number, distance: Distance(distance), goes }
     }
 
     #[test]
     fn each_requirement_has_its_own_time() {
         let mut figures = BookingFigures::default();
-        let rounds: [&[Bidder]; 4] = [
-            &[bidder(1, 900, true), bidder(2, 500, false)],
-            &[bidder(1, 900, false), bidder(2, 500, false)],
-            &[bidder(1, 900, true), bidder(2, 500, true)],
+        let rounds: [&[BallSeeker]; 4] = [
+            &[seeker(1, 900, true), seeker(2, 500, false)],
+            &[seeker(1, 900, false), seeker(2, 500, false)],
+            &[seeker(1, 900, true), seeker(2, 500, true)],
             &[],
         ];
-        for (round, bidders) in rounds.into_iter().enumerate() {
-            figures.update(bidders, THRESHOLD, round as f64, 1.0);
+        for (round, seekers) in rounds.into_iter().enumerate() {
+            figures.update(seekers, THRESHOLD, round as f64, 1.0);
         }
         let total = |span: Span| span.total;
         assert_eq!(total(figures.farther_goes), 1.0);
@@ -166,7 +127,7 @@ mod tests {
     fn a_ball_that_comes_back_soon_has_alternated() {
         let mut figures = BookingFigures::default();
         for (now, number) in [(0.0, 1), (10.0, 2), (12.0, 1), (20.0, 2), (24.0, 1), (24.1, 1)] {
-            figures.update(&[bidder(number, 500, true)], THRESHOLD, now, 0.1);
+            figures.update(&[seeker(number, 500, true)], THRESHOLD, now, 0.1);
         }
         assert_eq!((figures.takeovers, figures.alternations), (4, 1));
     }

@@ -9,9 +9,12 @@ mod tests;
 use std::hash::BuildHasher;
 
 use bevy::prelude::*;
+use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use serde::Serialize;
+use smallvec::SmallVec;
 use xxhash_rust::xxh3::{Xxh3DefaultBuilder, xxh3_64_with_seed};
 
+use bookings::BallSeeker;
 pub use bookings::{BookingFigures, PING_PONG, Span};
 pub use overlap::{BallOverlap, TOLERANCE};
 
@@ -19,17 +22,22 @@ use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
-use crate::mind::teamwork::Swapping;
+use crate::mind::teamwork::{Booking, Swapping};
+use crate::mind::world_model::WorldModel;
+use crate::pitch::BallKind;
+use crate::protocol::b3p::Distance;
 use crate::rng::Seed;
-use crate::robot::{OffPitch, Trailer};
+use crate::robot::{OffPitch, Orders, Robot, RobotState, Trailer};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
-use crate::strategy::{Activity, Role};
+use crate::strategy::teamwork::BallBooking;
+use crate::strategy::{Activity, Role, Strategies};
 use crate::world::ball::Ball;
+use crate::world::physics::Overlaps;
 use crate::world::referee::{MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
-    let systems = (digest, measure, bookings::watch_bookings, overlap::watch_overlaps, move_clock).chain();
+    let systems = (digest, measure, watch_bookings, watch_overlaps, move_clock).chain();
     app.match_resource::<Record>();
     app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
@@ -97,7 +105,7 @@ fn shares([home, away]: [f64; 2]) -> [f64; 2] {
     if total > 0.0 { [home / total, away / total] } else { [0.5, 0.5] }
 }
 
-type Bodies<'a> = (
+type Digested<'a> = (
     &'a Pose,
     Option<&'a RobotId>,
     Option<&'a Trailer>,
@@ -111,9 +119,9 @@ fn digest(
     mut record: ResMut<Record>,
     state: Res<MatchState>,
     radio: Res<RadioRecord>,
-    bodies: Query<Bodies>,
+    bodies: Query<Digested>,
 ) {
-    let mut sorted: smallvec::SmallVec<[(u32, [u32; 6]); 24]> = bodies
+    let mut sorted: SmallVec<[(u32, [u32; 6]); 24]> = bodies
         .iter()
         .map(|(pose, robot, trailer, role, activity, swapping)| {
             let key = |id: &RobotId| (id.team.index() as u32) << 8 | u32::from(id.number);
@@ -130,7 +138,7 @@ fn digest(
         })
         .collect();
     sorted.sort_unstable_by_key(|(order, _)| *order);
-    let mut bytes: smallvec::SmallVec<[u8; 512]> = smallvec::SmallVec::new();
+    let mut bytes: SmallVec<[u8; 512]> = SmallVec::new();
     for (_, words) in &sorted {
         words.iter().for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
     }
@@ -178,6 +186,44 @@ fn measure(
             record.agglomeration[team.index()] += dt;
         }
     }
+}
+
+type Bidding<'a> = (&'a RobotId, &'a Robot, &'a WorldModel, &'a Booking, &'a Orders);
+
+/// Robots that are penalised or off take no part.
+fn watch_bookings(
+    clock: Res<Clock>,
+    strategies: Res<Strategies>,
+    mut record: ResMut<Record>,
+    robots: Query<Bidding>,
+) {
+    for team in Team::BOTH {
+        let Some(spec) = &strategies.of(team).teamwork.ball_booking else { continue };
+        let mut seekers: SmallVec<[BallSeeker; 8]> = (robots.iter())
+            .filter(|(id, robot, .., orders)| {
+                id.team == team && !robot.health.crashed && orders.state == RobotState::Playing
+            })
+            .filter_map(|(id, _, model, booking, _)| {
+                let goes = booking.0.goes();
+                let ball = model.ball.filter(|_| goes || booking.0.sees())?;
+                let distance = Distance::from_metres(ball.position.distance(model.pose.position));
+                Some(BallSeeker { number: id.number, distance, goes })
+            })
+            .collect();
+        seekers.sort_unstable_by_key(|seeker| seeker.number);
+        let BallBooking { threshold, .. } = *spec;
+        let threshold = Distance::from_metres(threshold);
+        record.bookings[team.index()].update(&seekers, threshold, clock.now(), f64::from(clock.dt));
+    }
+}
+
+fn watch_overlaps(
+    overlaps: Overlaps,
+    kind: Res<BallKind>,
+    ball: Single<&RapierRigidBodyHandle, With<Ball>>,
+    mut record: ResMut<Record>,
+) {
+    overlaps.of_ball(*ball, kind.radius).for_each(|depth| record.overlap.add(depth));
 }
 
 fn move_clock(mut clock: ResMut<Clock>) {

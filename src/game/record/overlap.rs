@@ -1,13 +1,6 @@
 //! Solid bodies do not share a place: how deep the ball has sunk into robots and walls.
 
-use bevy::prelude::*;
-use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use serde::Serialize;
-
-use super::Record;
-use crate::pitch::BallKind;
-use crate::world::ball::Ball;
-use crate::world::physics::Overlaps;
 
 /// How far a match was from keeping the ball out of robots and walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -22,19 +15,10 @@ pub struct BallOverlap {
 pub const TOLERANCE: f32 = 0.002;
 
 impl BallOverlap {
-    fn add(&mut self, depth: f32) {
+    pub(super) fn add(&mut self, depth: f32) {
         self.body_ticks += u64::from(depth > TOLERANCE);
         self.deepest = self.deepest.max(depth);
     }
-}
-
-pub(super) fn watch_overlaps(
-    overlaps: Overlaps,
-    kind: Res<BallKind>,
-    ball: Single<&RapierRigidBodyHandle, With<Ball>>,
-    mut record: ResMut<Record>,
-) {
-    overlaps.of_ball(*ball, kind.radius).for_each(|depth| record.overlap.add(depth));
 }
 
 #[cfg(test)]
