@@ -105,13 +105,17 @@ pub enum TeammatesBy {
 pub struct TeamworkFile {
     /// Those that are on; the [default](Mechanisms::default), if left out.
     pub mechanisms: Option<Vec<Mechanism>>,
+    /// How a robot knows its team mates.
     pub teammates_by: Option<TeammatesBy>,
     /// Roles by rank, the highest first; those that are missing rank lowest, all alike.
     pub hierarchy: Option<Vec<String>>,
     /// The role that sends goalie messages.
     pub goalie: Option<String>,
+    /// When robots talk.
     pub talk: MessageTimingFile,
+    /// How roles are swapped.
     pub role_swap: Option<RoleSwapFile>,
+    /// How the ball is booked.
     pub ball_booking: Option<BallBookingFile>,
 }
 
@@ -188,9 +192,13 @@ impl Validate for MessageTiming {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RoleSwapFile {
+    /// By which protocol.
     pub protocol: Option<Protocol>,
+    /// When.
     pub policy: Option<Policy>,
+    /// Which roles.
     pub cast: Option<SwapRolesFile>,
+    /// How long robots wait.
     pub timers: TimersFile,
 }
 

@@ -88,23 +88,23 @@ fn a_fault_is_told_where_the_file_or_the_variant_has_it() {
     let own = Own::new();
     for (piece, instead, fault) in [
         ("seconds: 1,", "seconds: -1,", ":3:14: seconds: must be at least 0.001 s, not -1"),
-        ("seconds: 0.5", "seconds: -1", ":16:22: variants.paper.seconds: must be at least 0.001 s, not -1"),
+        ("seconds: 0.5", "seconds: -1", ":17:22: variants.paper.seconds: must be at least 0.001 s, not -1"),
         (
             "            name: \"One is hardened\",\n",
             "",
             ":9:21: variants.hardened: the field `name` is missing",
         ),
         ("strategy: \"hammerheads_swap\", ", "", ":5:11: home: the field `strategy` is missing"),
-        ("at_home", "nowhere", ":5:53: home.line_up: there is no line-up `nowhere`; known: at_home"),
+        ("at_home", "nowhere", ":5:51: home.line_up: there is no line-up `nowhere`; known: at_home"),
         (
             "\"home 3\", \"half",
             "\"home 7\", \"half",
-            ":7:34: expect[0].Never.what.RoleOf[0]: there is no robot",
+            ":7:33: expect[0].Never.what.RoleOf[0]: there is no robot",
         ),
         (
             "\"floater\"",
             "\"boater\"",
-            ":17:52: variants.paper.expect[0].Always.what.RoleOf[1]: there is no role `boater`",
+            ":18:52: variants.paper.expect[0].Always.what.RoleOf[1]: there is no role `boater`",
         ),
         (
             "unlock: AtTimeout)",
@@ -119,12 +119,12 @@ fn a_fault_is_told_where_the_file_or_the_variant_has_it() {
         (
             "seconds: 0.5",
             "variants: {\"x\": ()}",
-            ":16:23: variants.paper.variants: a variant has none of its own",
+            ":17:23: variants.paper.variants: a variant has none of its own",
         ),
         (
             "seconds: 0.5",
             "second: 1",
-            ":16:13: variants.paper.second: there is no field `second`; known: name",
+            ":17:13: variants.paper.second: there is no field `second`; known: name",
         ),
     ] {
         assert!(TWO.contains(piece), "{piece}");
@@ -141,7 +141,7 @@ fn two_variants_of_one_name_are_told_apart() {
     let own = Own::new();
     own.write("two.ron", TWO.replacen("The other is the paper's", "One is hardened", 1));
     let (told, code) = own.check(&["two.ron"]);
-    let fault = "fault two.ron:14:19: variants.paper.name: is also the name of two.ron:hardened";
+    let fault = "fault two.ron:15:19: variants.paper.name: is also the name of two.ron:hardened";
     assert_eq!((told.lines().nth(1), code), (Some(fault), Some(2)), "{told}");
 }
 

@@ -21,6 +21,7 @@ pub struct ScenarioFile {
     pub name: Option<String>,
     /// Where the claim comes from, such as "Hammerheads 2001, section VI-B"; needed.
     pub source: Option<String>,
+    /// More about it, for people.
     pub description: Option<String>,
     /// The match whose pitch, ball and rules it has, by its file's name; `friendly` if not given.
     pub game: Option<String>,
@@ -28,18 +29,23 @@ pub struct ScenarioFile {
     pub pitch: Option<String>,
     /// A radio, by its file's name; `perfect` if not given.
     pub radio: Option<String>,
+    /// The seeds that it is played with; ten if not given.
     pub seeds: Option<Seeds>,
     /// With how many of the seeds it may fail, at each place of the ball; none if not given.
     pub may_fail: Option<u16>,
     /// How long it takes; needed.
     pub seconds: Option<f32>,
+    /// Whether the rules of a match are enforced; they are not if not given.
     pub referee: Option<Referee>,
-    /// Needed.
+    /// The home team; needed.
     pub home: Option<SideFile>,
+    /// The away team; nobody if not given.
     pub away: Option<SideFile>,
-    /// Needed.
+    /// Where the ball starts; needed.
     pub ball: Option<BallFile>,
+    /// What the radio does to which packets.
     pub faults: Vec<FaultRule>,
+    /// What happens when.
     pub script: Vec<TimedEvent>,
     /// What must hold.
     pub expect: Vec<Expectation>,
@@ -133,17 +139,18 @@ pub enum Referee {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SideFile {
-    /// Needed.
+    /// The strategy's file; needed.
     pub strategy: Option<String>,
     /// What differs from the strategy's own `teamwork`, field by field.
     pub teamwork: TeamworkFile,
-    /// `cye`, if not given.
+    /// The file of the robots' kind; `cye` if not given.
     pub robot: Option<String>,
-    /// `perfect`, if not given.
+    /// The file of the robots' senses; `perfect` if not given.
     pub sensing: Option<String>,
     /// All of the strategy's players, at the places of one of its line-ups; those for its own kick-off if neither this nor
     /// `players` is given.
     pub line_up: Option<String>,
+    /// The robots that take part.
     pub players: Option<Vec<PlayerFile>>,
 }
 
