@@ -56,7 +56,6 @@
 //! Robots act on beliefs only: Sense, Referee, Record and the window read the truth. Seed, assets and requests determine a match
 //! bit for bit.
 
-#![forbid(unsafe_code)]
 // They panic when nobody reads; `cli` prints by writers that can fail.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 

@@ -13,13 +13,19 @@ use crate::strategy::Strategy;
 /// A robot comes into a match.
 #[derive(Clone, Debug)]
 pub struct RobotStart {
+    /// Who.
     pub id: RobotId,
     /// Index into the strategy's roles.
     pub role: usize,
+    /// What it is made of.
     pub kind: Arc<RobotKind>,
+    /// How it sees.
     pub sensing: Arc<Sensing>,
+    /// What its team plays.
     pub strategy: Arc<Strategy>,
+    /// From which its dice come.
     pub seed: Seed,
+    /// The clock at the start.
     pub clock: Clock,
     /// In the pitch frame.
     pub pose: Pose,
@@ -36,7 +42,9 @@ pub struct RobotStart {
 pub struct PutDown {
     /// In its team frame.
     pub told: Pose,
+    /// What its team plays.
     pub strategy: Arc<Strategy>,
+    /// When.
     pub tick: u64,
 }
 
@@ -47,15 +55,21 @@ pub struct SwitchedOff;
 /// A robot's computer comes on again. What the robot was in the middle of is gone in any case.
 #[derive(Clone, Debug)]
 pub struct SwitchedOn {
+    /// What it still knows.
     pub restart: Restart,
+    /// What its team plays.
     pub strategy: Arc<Strategy>,
+    /// When.
     pub tick: u64,
 }
 
 /// A robot's team plays on with another strategy.
 #[derive(Clone, Debug)]
 pub struct StrategyChanged {
+    /// What its team played.
     pub old: Arc<Strategy>,
+    /// What it plays now.
     pub new: Arc<Strategy>,
+    /// When.
     pub tick: u64,
 }

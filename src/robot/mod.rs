@@ -67,8 +67,11 @@ pub(crate) fn plugin(app: &mut App) {
 /// A robot; its entity is its drive unit. Its health is changed by the Script stage only.
 #[derive(Component, Clone, Debug)]
 pub struct Robot {
+    /// What it is built as.
     pub kind: Arc<RobotKind>,
+    /// How well it senses.
     pub sensing: Arc<Sensing>,
+    /// What is wrong with it.
     pub health: Health,
     /// Its decisions are made in another process.
     pub remote: bool,
@@ -77,6 +80,7 @@ pub struct Robot {
 }
 
 impl Robot {
+    /// A robot that is well.
     pub fn new(kind: Arc<RobotKind>, sensing: Arc<Sensing>, clock: &Clock) -> Robot {
         let decision_ticks = clock.ticks(1.0 / kind.control_hz);
         Robot { kind, sensing, health: Health::default(), remote: false, decision_ticks }
@@ -108,6 +112,7 @@ impl Robot {
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct Trailer {
+    /// The robot that pulls it.
     pub of: RobotId,
     /// The middle of its outline as seen from the hitch, m.
     pub middle: Vec2,
@@ -118,7 +123,9 @@ pub struct Trailer {
 /// What a robot's motors are told, after the limits of acceleration. Written by the Drive stage.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub enum DriveCommand {
+    /// For two wheels.
     Wheels(WheelSpeeds),
+    /// For legs.
     Gait(Gait),
 }
 
@@ -158,7 +165,9 @@ impl DriveCommand {
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct RobotBodies {
+    /// The drive unit.
     pub unit: RapierRigidBodyHandle,
+    /// The trailer.
     pub trailer: Option<RapierRigidBodyHandle>,
 }
 

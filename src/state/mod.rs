@@ -54,9 +54,11 @@ type Reaction = Arc<dyn Fn(&mut World, Entity, &dyn Any) + Send + Sync>;
 /// One type of state: a resource, or a component of the entities of a match.
 #[derive(Clone)]
 pub struct StateKind {
+    /// Bevy's number of the type.
     pub id: ComponentId,
     /// The type, without its path.
     pub name: &'static str,
+    /// Whether it is a resource; else a component.
     pub is_resource: bool,
     copies: Arc<dyn Copies>,
 }

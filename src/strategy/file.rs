@@ -14,7 +14,9 @@ use crate::geometry::Zone;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StrategyFile {
+    /// Its name for people.
     pub name: String,
+    /// What the team does, for people.
     #[serde(default)]
     pub description: String,
     /// The strategy that fills whatever this file leaves out: the name of a file in the same folder or else of one among the
@@ -31,27 +33,37 @@ pub struct StrategyFile {
     /// The role of each robot at kick-off, by number.
     #[serde(default)]
     pub players: Vec<String>,
+    /// Where robots stand for a kick-off.
     #[serde(default)]
     pub kick_off: KickOff,
     /// Places of all players, by number, at which scenarios begin.
     #[serde(default)]
     pub line_ups: BTreeMap<String, Vec<Vec2>>,
+    /// Zones by name.
     #[serde(default)]
     pub zones: BTreeMap<String, Zone>,
+    /// Places by name.
     #[serde(default)]
     pub percepts: BTreeMap<String, Point>,
+    /// Sets of places by name.
     #[serde(default)]
     pub point_sets: BTreeMap<String, Points>,
+    /// Statements by name.
     #[serde(default)]
     pub features: BTreeMap<String, Feature>,
+    /// Motor schemas by name.
     #[serde(default)]
     pub schemas: BTreeMap<String, Schema>,
+    /// Assemblages by name.
     #[serde(default)]
     pub assemblages: BTreeMap<String, AssemblageFile>,
+    /// State machines by name.
     #[serde(default)]
     pub machines: BTreeMap<String, MachineFile>,
+    /// Roles by name.
     #[serde(default)]
     pub roles: BTreeMap<String, RoleFile>,
+    /// What robots arrange with each other.
     #[serde(default)]
     pub teamwork: TeamworkFile,
 }
@@ -59,7 +71,9 @@ pub struct StrategyFile {
 /// Motor schemas by name, a weight beside each, and how they become one vector.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum AssemblageFile {
+    /// The sum of all schemas.
     WeightedSum(Vec<(f32, String)>),
+    /// The strongest schema alone.
     WinnerTakeAll(Vec<(f32, String)>),
 }
 
@@ -67,7 +81,9 @@ pub enum AssemblageFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MachineFile {
+    /// The first state.
     pub start: String,
+    /// States by name.
     pub states: BTreeMap<String, StateFile>,
 }
 
@@ -108,6 +124,7 @@ fn full_speed() -> f32 {
 /// What a standing robot turns to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum TurnFile {
+    /// It does not turn.
     #[default]
     Stay,
     /// Rotates to face a point.
@@ -116,10 +133,13 @@ pub enum TurnFile {
     Spin(f32),
 }
 
+/// A way from one state to another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TransitionFile {
+    /// When it is taken.
     pub when: Feature,
+    /// The next state.
     pub go: String,
 }
 
@@ -127,6 +147,7 @@ pub struct TransitionFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum RoleFile {
+    /// It plays a machine.
     Plays {
         /// One or two letters for the label on the pitch.
         tag: String,
@@ -142,9 +163,12 @@ pub enum RoleFile {
     ActsAs { tag: String, sub_roles: Vec<SubRoleFile> },
 }
 
+/// A role that another role acts as.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SubRoleFile {
+    /// When it does.
     pub when: Feature,
+    /// The role.
     pub role: String,
 }

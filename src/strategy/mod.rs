@@ -33,6 +33,7 @@ pub use role::{Role, RoleRef};
 pub struct Strategies(pub [Arc<Strategy>; 2]);
 
 impl Strategies {
+    /// A team's strategy.
     pub fn of(&self, team: Team) -> &Strategy {
         &self.0[team.index()]
     }

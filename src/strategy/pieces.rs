@@ -13,19 +13,27 @@ use crate::geometry::Zone;
 /// A strategy that can be played: every name is an index, every number is sound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strategy {
+    /// Its name for people.
     pub name: String,
+    /// What the team does, for people.
     pub description: String,
     /// Length and width in metres of the pitch that its file was written for.
     pub pitch: Option<Vec2>,
+    /// The kinds of robots that can play it.
     pub robot_kinds: Vec<String>,
+    /// The roles; others refer to them by index.
     pub roles: Vec<RoleSpec>,
     /// Index into `roles` for each robot at kick-off, by number.
     pub players: Vec<usize>,
+    /// Where robots stand for a kick-off.
     pub kick_off: KickOff,
     /// Places of all players by number, at which scenarios begin.
     pub line_ups: BTreeMap<String, Vec<Vec2>>,
+    /// The state machines; roles refer to them by index.
     pub machines: Vec<Machine>,
+    /// The assemblages; states refer to them by index.
     pub assemblages: Vec<Assemblage>,
+    /// What robots arrange with each other.
     pub teamwork: Teamwork,
     /// How many memories its stateful operators need.
     pub slots: usize,
@@ -34,26 +42,33 @@ pub struct Strategy {
 /// A role and what it consists of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoleSpec {
+    /// Its name.
     pub name: String,
+    /// One or two letters for the label on the pitch.
     pub tag: String,
+    /// What it does.
     pub part: Part,
 }
 
 /// A role plays a machine itself or acts as other roles by turns.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
+    /// It plays a machine.
     Plays(Play),
+    /// It acts as other roles by turns.
     ActsAs(Vec<SubRole>),
 }
 
 /// What a role that plays itself consists of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Play {
+    /// The machine's index.
     pub machine: usize,
     /// The zone of control (figure 2).
     pub danger_zone: Zone,
     /// A robot that has looked around for the ball from one of them in vain goes on to the next.
     pub homebases: Vec<Vec2>,
+    /// How it chooses its homebase.
     pub homebase_rule: HomebaseRule,
 }
 
@@ -74,25 +89,35 @@ pub enum HomebaseRule {
 /// Another role, and when to act in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SubRole {
+    /// When the role acts as it.
     pub when: Feature,
+    /// The role's index.
     pub role: usize,
 }
 
 /// A finite state machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Machine {
+    /// Its name.
     pub name: String,
+    /// The first state's index.
     pub start: usize,
+    /// The states.
     pub states: Vec<State>,
 }
 
 /// An activity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
+    /// Its name.
     pub name: String,
+    /// The index of the assemblage that steers.
     pub assemblage: Option<usize>,
+    /// Share of the robot's top speed.
     pub speed: f32,
+    /// Drives with the rear ahead.
     pub reverse: bool,
+    /// What to turn to while standing.
     pub turn: Turn,
     /// Whether it is an acquire behaviour, in which the ball can be claimed.
     pub acquires: bool,
@@ -100,13 +125,16 @@ pub struct State {
     pub hold: bool,
     /// Kicks by name, the first that the robot's kind has.
     pub kicks: Vec<String>,
+    /// In order; the first whose feature holds is taken.
     pub transitions: Vec<Transition>,
 }
 
 /// What a standing robot turns to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Turn {
+    /// It does not turn.
     Stay,
+    /// It turns to a point.
     Face(Point),
     /// rad/s
     Spin(f32),
@@ -115,7 +143,9 @@ pub enum Turn {
 /// A way out of a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
+    /// When it is taken.
     pub when: Feature,
+    /// The next state's index.
     pub go: usize,
     /// The feature as the file has it, for people.
     pub label: String,
@@ -124,23 +154,31 @@ pub struct Transition {
 /// Weighted motor schemas.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assemblage {
+    /// Its name.
     pub name: String,
+    /// How the schemas become one vector.
     pub combination: Combination,
+    /// The schemas with their weights.
     pub terms: Vec<Term>,
 }
 
 /// How the vectors of an assemblage become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Combination {
+    /// The sum of all schemas.
     WeightedSum,
+    /// The strongest schema alone.
     WinnerTakeAll,
 }
 
 /// A motor schema and its weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
+    /// How much it counts.
     pub weight: f32,
+    /// The schema's name.
     pub name: String,
+    /// The schema.
     pub schema: Schema,
 }
 
@@ -157,6 +195,7 @@ impl Strategy {
         Ok(())
     }
 
+    /// A state of a machine.
     pub fn state(&self, machine: usize, state: usize) -> &State {
         &self.machines[machine].states[state]
     }

@@ -25,8 +25,11 @@ pub struct StrategyReading {
 /// What a match or a scenario says of a strategy's teamwork in place of the strategy, and where it says so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TeamworkChange {
+    /// What changes.
     pub teamwork: TeamworkFile,
+    /// The text that says so.
     pub source: Source,
+    /// Its place in the text.
     pub at: Field,
 }
 

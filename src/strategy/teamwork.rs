@@ -143,6 +143,7 @@ impl TeamworkFile {
     attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
 )]
 #[patch(attribute(serde(deny_unknown_fields, default)))]
+#[patch(attribute(expect(missing_docs, reason = "the fields of what a file may leave out")))]
 pub struct MessageTiming {
     /// Between two position messages.
     pub position_every: f32,
@@ -220,6 +221,7 @@ impl RoleSwapFile {
     attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
 )]
 #[patch(attribute(serde(deny_unknown_fields, default)))]
+#[patch(attribute(expect(missing_docs, reason = "the fields of what a file may leave out")))]
 pub struct BallBooking {
     /// Which bookings count.
     pub rules: b3p::Rules,
@@ -274,8 +276,11 @@ pub enum Protocol {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SwapRolesFile {
+    /// Plays in the middle.
     pub halfback: RoleRef,
+    /// Stands in for others.
     pub floater: RoleRef,
+    /// Attacks.
     pub forward: RoleRef,
 }
 
@@ -286,6 +291,7 @@ pub struct SwapRolesFile {
     attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
 )]
 #[patch(attribute(serde(deny_unknown_fields, default)))]
+#[patch(attribute(expect(missing_docs, reason = "the fields of what a file may leave out")))]
 pub struct Timers {
     /// A locked robot for the next message of its initiator. Longer than the other two and two messages' delays.
     pub lock: f32,

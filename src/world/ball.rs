@@ -33,6 +33,7 @@ pub struct Rolling(pub Vec2);
 /// Somebody has put the ball somewhere, rolling at this velocity, m/s.
 #[derive(Clone, Copy, Debug)]
 pub struct BallPut {
+    /// m/s
     pub velocity: Vec2,
 }
 

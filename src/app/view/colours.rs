@@ -13,6 +13,7 @@ const fn rgb(hex: u32) -> Color {
 
 /// Around the pitch.
 pub const FLOOR: Color = rgb(0x36_3D_3A);
+/// The carpet.
 pub const CARPET: Color = rgb(0x2E_7D_46);
 /// Every second mowing stripe.
 pub const STRIPE: Color = rgb(0x33_86_4C);
@@ -20,14 +21,19 @@ pub const STRIPE: Color = rgb(0x33_86_4C);
 pub const FENCE: Color = rgb(0x6E_76_72);
 /// Lines, walls and penalty spots.
 pub const CHALK: Color = rgb(0xF1_F1_EA);
+/// The goal that the west team defends.
 pub const WEST_GOAL: Color = rgb(0x2F_6F_DE);
+/// The goal that the east team defends.
 pub const EAST_GOAL: Color = rgb(0xF2_C2_30);
+/// The body of a robot.
 pub const ROBOT: Color = rgb(0x1B_1D_22);
 /// The head of a robot that has a neck: pale, so that one sees where it looks.
 pub const HEAD: Color = rgb(0xC9_D0_D6);
 /// The line around a robot's parts.
 pub const ROBOT_EDGE: Color = rgb(0x5A_61_6B);
+/// The ball.
 pub const BALL: Color = rgb(0xFF_8A_1F);
+/// The edge of the ball.
 pub const BALL_EDGE: Color = rgb(0x6B_30_00);
 /// A claim of the ball.
 pub const CLAIM: Color = BALL;

@@ -15,6 +15,7 @@ use crate::protocol::{b3p, role_swap};
 
 /// A message of one robot to its team mates. The first three are those of the Hammerheads' figure 3, with its fields.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum TeamMessage {
     Position(Position),
     HaveBall(HaveBall),
@@ -82,8 +83,11 @@ pub enum GoalieBehaviour {
 /// A side of the goal, as seen by the goalie looking up the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum GoalSide {
+    /// The left half.
     Left,
+    /// The middle.
     Centre,
+    /// The right half.
     Right,
 }
 
@@ -117,7 +121,7 @@ macro_rules! messages {
     ($($constant:ident $word:ident $number:literal: $name:literal $module:ident $priority:ident;
         ($($message:tt)+) = $written:tt: $type:ty $(, if $is_sound:expr)?;)+) => {
         impl DataType {
-            $(pub const $constant: DataType = DataType($number);)+
+            $(#[doc = $name] pub const $constant: DataType = DataType($number);)+
         }
 
         data!(TeamMessage {
@@ -184,7 +188,7 @@ impl fmt::Display for DataType {
 macro_rules! modules {
     ($($constant:ident $number:literal: $name:literal;)+) => {
         impl Module {
-            $(pub const $constant: Module = Module($number);)+
+            $(#[doc = $name] pub const $constant: Module = Module($number);)+
         }
 
         impl fmt::Display for Module {

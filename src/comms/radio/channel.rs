@@ -27,6 +27,7 @@ use crate::rng::{Dice, Seed};
 pub struct Delivery {
     /// That of the packet itself first, then those of its duplicates; not in the order of their ticks.
     pub arrivals: SmallVec<[Arrival; 2]>,
+    /// Why it is lost, if it is.
     pub lost: Option<Loss>,
 }
 

@@ -54,6 +54,7 @@ pub struct RadioSystems;
 pub struct InFlight {
     /// That of its [`Transmission`].
     pub id: u64,
+    /// What is under way.
     pub packet: Packet,
     /// The tick in which it arrives.
     pub due: u64,

@@ -47,9 +47,11 @@ pub struct LinkCounters {
 pub struct Transmission {
     /// Counts the packets of a match.
     pub id: u64,
+    /// What was sent.
     pub packet: Packet,
     /// The tick in which it was sent.
     pub sent: u64,
+    /// Where it is.
     pub state: TransmissionState,
     /// It took longer than the radio's ordinary delay.
     pub late: bool,
@@ -57,12 +59,14 @@ pub struct Transmission {
     pub doubled: bool,
 }
 
+/// Where a packet is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TransmissionState {
     /// It is to arrive in this tick.
     InFlight(u64),
     /// It arrived in this tick.
     Arrived(u64),
+    /// It was lost.
     Lost(Loss),
 }
 

@@ -31,6 +31,7 @@ pub struct TypeInfo {
     pub name: &'static str,
     /// The module that sends it.
     pub module: Module,
+    /// Which goes first where not all can go.
     pub priority: Priority,
 }
 

@@ -23,6 +23,7 @@ pub struct Directory {
 pub struct OutOfPorts {
     /// The first port.
     pub base_port: u16,
+    /// Peers at most.
     pub peers: usize,
 }
 

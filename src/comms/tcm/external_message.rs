@@ -23,6 +23,7 @@ pub struct ExternalMessage {
 /// A module of a peer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Address {
+    /// Who.
     pub peer: Peer,
     /// The module in it.
     pub module: Module,
@@ -35,6 +36,7 @@ pub struct Address {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Peer {
+    /// One robot.
     Robot {
         /// 0 for home, 1 for away.
         team: u8,

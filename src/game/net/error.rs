@@ -10,6 +10,7 @@ use crate::ids::RobotId;
 
 /// What cannot be done with a network.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum NetworkError {
     /// A socket failed.
     #[error(transparent)]

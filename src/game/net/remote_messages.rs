@@ -47,6 +47,7 @@ pub struct Sensors {
 pub struct RobotReply {
     /// That of the sensors that it answers.
     pub session: u32,
+    /// What the robot wants of its body, and believes.
     pub wants: RobotWants,
     /// Datagrams to robots that it has sent so far, and those from robots that it has received.
     pub datagrams: (u64, u64),

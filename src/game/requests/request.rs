@@ -18,31 +18,24 @@ use crate::strategy::Strategy;
 
 /// Something that is to happen at the next tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Request {
     /// A person takes the robot over.
     TakeOver(RobotId),
     /// The robot's strategy takes it back.
     HandBack(RobotId),
     /// What the person at the controls does to the robot; see [`Pilot`]. Nothing, if nobody drives it.
-    Steer {
-        robot: RobotId,
-        pilot: Pilot,
-    },
+    Steer { robot: RobotId, pilot: Pilot },
     /// The weight of a term of an assemblage, both by index.
-    SetWeight {
-        team: Team,
-        assemblage: usize,
-        term: usize,
-        weight: f32,
-    },
+    SetWeight { team: Team, assemblage: usize, term: usize, weight: f32 },
+    /// Something happens to a robot.
     Robot(RobotId, RobotChange),
+    /// Something happens to the radio.
     Radio(RadioChange),
+    /// Something happens to a body.
     Body(BodyChange),
     /// A packet that has reached the address at which a referee box is followed.
-    RefereeBox {
-        from: SocketAddr,
-        bytes: Arc<[u8]>,
-    },
+    RefereeBox { from: SocketAddr, bytes: Arc<[u8]> },
     /// News of a robot that decides in another process.
     Remote(RobotId, RemoteNews),
     /// A datagram that has reached a robot of this process over a real network.
@@ -51,15 +44,14 @@ pub enum Request {
     /// to a file, since names and places have been looked up in it. It stays the last one, so that those before it have the
     /// same numbers when they are written and when they are read.
     #[serde(skip)]
-    ChangeStrategy {
-        team: Team,
-        strategy: Arc<Strategy>,
-    },
+    ChangeStrategy { team: Team, strategy: Arc<Strategy> },
 }
 
 /// What happens to a robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum RobotChange {
+    /// It fails in this way.
     Fail(RobotFailure),
     /// All its failures end; a robot that had crashed is switched on again.
     Revive(Restart),
@@ -70,15 +62,15 @@ pub enum RobotChange {
     /// Its body and its senses have other values from now on; its size and the rate of its decisions stay.
     Recalibrate(Calibration),
     /// It decides in this process from now on, as if it had just been switched on, and counts its messages from here on.
-    PlayHere {
-        counter: u32,
-    },
+    PlayHere { counter: u32 },
 }
 
 /// The values of a robot that can be calibrated while it plays: its noise, its limits and its senses.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
+    /// What it is built as.
     pub kind: Arc<RobotKind>,
+    /// How well it senses.
     pub sensing: Arc<Sensing>,
 }
 
@@ -87,13 +79,17 @@ pub struct Calibration {
 pub enum RadioChange {
     /// Another radio from now on.
     Change(Radio),
+    /// This share of all messages is lost besides.
     ExtraLoss(f32),
     /// s
     ExtraDelay(f32),
+    /// Whether the whole band is jammed.
     Jam(bool),
     /// The robot hears nobody and is heard by nobody.
     CutOff(RobotId),
+    /// The robot is in radio range again.
     Reconnect(RobotId),
+    /// Two groups no longer hear each other.
     Part(Partition),
     /// Ends all partitions.
     Heal,
@@ -103,6 +99,7 @@ pub enum RadioChange {
 
 /// A hand on the pitch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum BodyChange {
     /// Puts the ball somewhere, rolling, m and m/s in the pitch frame.
     Ball { at: Vec2, velocity: Vec2 },
@@ -116,6 +113,7 @@ pub enum BodyChange {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RemoteNews {
     /// It wants to do this. It has sent so many team messages since it said so last, each counted once.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     Wants { wants: RobotWants, said: u64 },
     /// It is not there, or not any more: it stands still.
     Silent,
@@ -147,9 +145,11 @@ pub struct RobotWants {
 /// A datagram of the TCM that a network has brought.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NetworkDatagram {
+    /// The receiver.
     pub to: RobotId,
     /// The tick in which a robot sent it; a computer has no ticks.
     pub sent: Option<u64>,
+    /// The datagram.
     pub bytes: Arc<[u8]>,
 }
 

@@ -11,6 +11,7 @@ use crate::ids::{RobotId, Team};
 /// What a scenario must show. Times are seconds since it began; a tick on a limit counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Expectation {
     /// Holds at some tick, at most `within` seconds after `after`.
     Eventually {
@@ -77,6 +78,7 @@ impl Expectation {
 /// A statement about one tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum Condition {
     /// The robot has this role.
     RoleOf(RobotId, String),

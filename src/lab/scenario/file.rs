@@ -228,6 +228,7 @@ pub enum BallPlaces {
     /// One place.
     One(Vec2),
     /// Every x with every y.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     Grid { x: Vec<f32>, y: Vec<f32> },
 }
 

@@ -25,7 +25,9 @@ use crate::strategy::teamwork::Protocol;
 /// A scenario: its file, and which of the file's variants it is, if there are any.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScenarioRef {
+    /// The file.
     pub path: PathBuf,
+    /// The variant of the file.
     pub variant: Option<String>,
 }
 
@@ -64,7 +66,9 @@ impl Display for ScenarioRef {
 /// A scenario with everything that its matches need.
 #[derive(Clone, Debug)]
 pub struct ScenarioPlan {
+    /// Where it comes from.
     pub origin: ScenarioRef,
+    /// The scenario, checked.
     pub scenario: Scenario,
     source: Source,
     /// The match, with the first seed.

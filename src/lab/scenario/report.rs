@@ -16,6 +16,7 @@ use crate::data::in_one_line;
 pub struct ScenarioReport {
     /// The file's name, and the variant's.
     pub file: String,
+    /// The variant of the file.
     pub variant: Option<String>,
     /// What the scenario shows.
     pub name: String,

@@ -26,6 +26,7 @@ pub struct Scene<'a> {
     pub robots: Vec<RobotScene<'a>>,
     /// Goals, home first.
     pub score: [u32; 2],
+    /// What crossed the radio.
     pub radio: &'a RadioRecord,
 }
 

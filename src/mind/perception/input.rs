@@ -33,6 +33,7 @@ pub struct DecisionInput {
     pub model: &'static WorldModel,
     /// How far it has moved by its own wheels or steps.
     pub odometry: &'static Odometry,
+    /// What it believes of its team.
     pub team_model: &'static TeamModel,
     /// Its role.
     pub role: &'static Role,

@@ -40,6 +40,7 @@ pub struct Perception<'a> {
     pub role: usize,
     /// What the robot believes of the field.
     pub model: &'a WorldModel,
+    /// What it believes of its team.
     pub team_model: &'a TeamModel,
     /// What its team arranges.
     pub teamwork: &'a Teamwork,

@@ -50,6 +50,7 @@ pub enum Update {
 /// How a team books the ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BookingSettings {
+    /// Which bookings count.
     pub rules: Rules,
     /// A robot is nearer only if it is by at least so much. Above what the measured distances vary by, else robots take the
     /// ball from each other in turn.
@@ -65,6 +66,7 @@ pub struct BookingSettings {
 /// that there is one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct KnownBooking {
+    /// Who has booked the ball.
     pub robot_booker: PlayerNumber,
     /// The booker's distance when it was last heard; infinite if it has let the ball go.
     pub distance: Distance,
@@ -91,8 +93,10 @@ pub struct Book {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum BookingInput {
     /// One turn of the robot's loop. Without a distance it does not know where the ball is.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     Turn { distance: Option<Distance> },
     /// A team mate announced a booking.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     Hear { from: PlayerNumber, book: Book },
     /// The robot is penalised: it frees the ball if it has it booked.
     Withdraw,

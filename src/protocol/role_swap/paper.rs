@@ -34,8 +34,10 @@ pub enum OnMissingAck {
     #[default]
     RollBack,
     /// Tells everybody its previous role, and repeats that to silent robots this many times, or for ever (`None`).
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     RollBackUntilAcknowledged { retries: Option<u8> },
     /// Repeats the reassignment to silent robots this many times, or for ever (`None`).
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     Resend { tries: Option<u8> },
 }
 

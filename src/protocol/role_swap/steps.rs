@@ -122,8 +122,13 @@ pub struct Lock {
 /// What a robot does as an initiator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum AttemptPhase {
+    /// It initiates nothing.
     Idle,
+    /// It has asked for locks.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     WaitingForLocks { sequence: Sequence },
+    /// It has sent the new roles.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
     WaitingForAcks { sequence: Sequence },
 }
 

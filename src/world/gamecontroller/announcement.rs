@@ -13,6 +13,7 @@ const COLOURS: [Colour; 2] = [Colour::Purple, Colour::Blue];
 /// What is told of our match. A side is 0 for home and 1 for away.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MatchAnnouncement {
+    /// Of the packets.
     pub version: Version,
     /// One more than in the last packet; wraps.
     pub packet_number: u8,

@@ -15,9 +15,13 @@ pub const GONE_AFTER: f64 = 5.0;
 /// What a control packet says about our match.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BoxView {
+    /// The state of the game.
     pub state: State,
+    /// The phase of the game.
     pub game_phase: GamePhase,
+    /// The set play that runs.
     pub set_play: SetPlay,
+    /// Whether play is stopped, from version 19 on.
     pub stopped: bool,
     /// Also in the first half of extra time.
     pub first_half: bool,
@@ -71,8 +75,11 @@ pub struct Penalised {
 /// What nobody here can do, since no version that we know says what it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NotObeyed {
+    /// A state of the game.
     State(State),
+    /// A phase of the game.
     GamePhase(GamePhase),
+    /// A set play.
     SetPlay(SetPlay),
     /// It is served off the pitch.
     Penalty(Penalty),

@@ -9,6 +9,7 @@ use crate::world::gamecontroller::referee_box::BoxView;
 /// What a referee box has said last.
 #[derive(Clone, Copy, Debug)]
 pub struct BoxStatement<'a> {
+    /// What the box says of the match.
     pub view: &'a BoxView,
     /// Seconds since it said so.
     pub silence: f64,

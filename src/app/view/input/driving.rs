@@ -28,6 +28,7 @@ pub struct DrivenRobot<'w, 's> {
 }
 
 impl DrivenRobot<'_, '_> {
+    /// The robot that the person drives.
     pub fn id(&self) -> Option<RobotId> {
         self.piloted.0
     }

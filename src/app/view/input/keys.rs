@@ -24,23 +24,36 @@ pub enum Deed {
 /// What a person asks of the robot that they drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DriveKey {
+    /// Drive ahead.
     Ahead,
+    /// Drive back.
     Back,
+    /// Turn to the left.
     TurnLeft,
+    /// Turn to the right.
     TurnRight,
+    /// Step to the left.
     StepLeft,
+    /// Step to the right.
     StepRight,
+    /// Kick ahead.
     KickAhead,
+    /// Kick to the left.
     KickLeft,
+    /// Kick to the right.
     KickRight,
+    /// Hold the ball.
     Hold,
 }
 
 /// A deed, what is pressed for it, and what it is in words.
 #[derive(Clone, Copy, Debug)]
 pub struct Binding {
+    /// What is done.
     pub deed: Deed,
+    /// The keys that do it.
     pub presses: &'static [Press],
+    /// What it does, in words for people.
     pub does: &'static str,
 }
 

@@ -9,7 +9,9 @@ use crate::robot::{Kick, KickIntent};
 /// What keys or levers say about walking: shares from -1 to 1, ahead and to the left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ControlInput {
+    /// Shares of the top speed ahead and to the left, -1 to 1.
     pub walk: Vec2,
+    /// Share of the fastest turn, -1 to 1, positive to the left.
     pub turn: f32,
     /// Whether the ball is to be held.
     pub hold: bool,
@@ -18,6 +20,7 @@ pub struct ControlInput {
 /// The levers of the inspector, for the robot that a person drives. Keys go before them.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct ManualControl {
+    /// What the person does.
     pub input: ControlInput,
     /// Share of the farthest turn of the head; without it the head looks for the ball itself.
     pub head: Option<f32>,

@@ -10,11 +10,15 @@ const NOTHING: f32 = 40.0;
 
 /// A panel whose edge can be dragged.
 pub struct SizedPanel {
+    /// The name that egui knows it by.
     pub id: &'static str,
+    /// The edge of the window at which it stands.
     pub edge: Edge,
     /// From edge to edge, in points.
     pub least: f32,
+    /// The largest share of the window that it takes.
     pub most: f32,
+    /// Its frame.
     pub frame: egui::Frame,
 }
 

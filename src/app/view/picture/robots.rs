@@ -19,6 +19,7 @@ pub(super) fn plugin(app: &mut App) {
 /// The plate that bears a robot's number, on the drive unit or on its trailer.
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Plate {
+    /// The robot that wears it.
     pub of: RobotId,
     /// Its middle in the body's frame, m.
     pub middle: Vec2,

@@ -14,12 +14,19 @@ use crate::robot::Health;
 /// What is the matter with a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatusIcon {
+    /// Taken off, or serving a penalty.
     Penalised,
+    /// Switched off.
     Crashed,
+    /// It does not decide.
     Frozen,
+    /// It hears nobody.
     Deaf,
+    /// Nobody hears it.
     Mute,
+    /// The radio reaches it no more.
     CutOff,
+    /// Another robot holds its lock.
     Locked,
 }
 
@@ -52,6 +59,7 @@ impl StatusIcon {
         StatusIcon::ALL.into_iter().filter(shown).collect()
     }
 
+    /// What the icon says, in words for people.
     pub fn words(self) -> &'static str {
         match self {
             StatusIcon::Penalised => "sent off",

@@ -16,12 +16,17 @@ pub(super) fn plugin(app: &mut App) {
 
 /// Heights of the layers of the picture.
 pub mod height {
+    /// The carpet.
     pub const GROUND: f32 = 0.0;
+    /// The lines.
     pub const LINES: f32 = 1.0;
+    /// Rings around robots.
     pub const RINGS: f32 = 2.0;
+    /// The way that the ball has come.
     pub const TRAIL: f32 = 3.0;
     /// Robots are at this height and up to 2 above it.
     pub const ROBOTS: f32 = 4.0;
+    /// The ball.
     pub const BALL: f32 = 8.0;
 }
 
@@ -49,6 +54,7 @@ pub struct BodyVisual {
 /// What fades in when its body was carried: materials and their full opacities.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Fade {
+    /// Each material with its opacity.
     pub materials: Vec<(Handle<ColorMaterial>, f32)>,
     /// 0 just carried, 1 there.
     progress: f32,

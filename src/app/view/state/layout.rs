@@ -75,7 +75,9 @@ pub const PITCH: egui::Vec2 = egui::vec2(160.0, 100.0);
 /// Where a panel that can be dragged docks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
+    /// The right edge.
     Right,
+    /// The lower edge.
     Bottom,
 }
 

@@ -83,8 +83,10 @@ impl Piloted {
 /// What the window shows.
 #[derive(States, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Screen {
+    /// The menu.
     #[default]
     Menu,
+    /// A match.
     Match,
 }
 

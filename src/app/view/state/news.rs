@@ -54,6 +54,7 @@ pub struct TimelineEvents(pub Vec<TimelineEvent>);
 /// A decision and when it fell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimelineEvent {
+    /// What the referee decided.
     pub decision: Decision,
     /// Seconds of playing time since the match began.
     pub played: f64,

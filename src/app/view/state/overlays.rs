@@ -89,6 +89,7 @@ impl Overlays {
         overlays
     }
 
+    /// Whether an overlay is shown.
     pub fn shows(&self, overlay: Overlay) -> bool {
         self.0[overlay as usize]
     }
@@ -104,6 +105,7 @@ impl Overlays {
         self.0[overlay as usize] = on;
     }
 
+    /// Shows an overlay, or hides it.
     pub fn toggle(&mut self, overlay: Overlay) {
         self.set(overlay, !self.shows(overlay));
     }

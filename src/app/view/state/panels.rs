@@ -9,7 +9,9 @@ use super::overlays::{Overlay, Overlays};
 /// What lies over the pitch.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OpenDialogues {
+    /// The question that waits for an answer.
     pub question: Option<Question>,
+    /// Whether the help is open.
     pub help: bool,
     /// The final score.
     pub result: bool,
@@ -18,7 +20,9 @@ pub struct OpenDialogues {
 /// What is asked before it is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
+    /// Whether to play from the beginning.
     Restart,
+    /// Whether to leave the match.
     Leave,
 }
 
@@ -56,14 +60,18 @@ impl Default for Inspector {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OpenPanels {
+    /// The overlays.
     pub overlays: Overlays,
+    /// Whether the inspector is open.
     pub inspector: bool,
 }
 
 /// What is open while a person watches, and while they drive a robot.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RememberedPanels {
+    /// While nobody drives.
     pub watching: OpenPanels,
+    /// While the person drives.
     pub playing: OpenPanels,
     /// Which of them is shown.
     plays: bool,
@@ -80,6 +88,7 @@ impl Default for RememberedPanels {
 }
 
 impl RememberedPanels {
+    /// What is open while nobody drives, and while the person does.
     pub fn new(watching: OpenPanels, playing: OpenPanels) -> RememberedPanels {
         RememberedPanels { watching, playing, plays: false }
     }

@@ -5,6 +5,7 @@ use bevy::prelude::*;
 /// How time passes in the window.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Playback {
+    /// Whether time stands still.
     pub paused: bool,
     /// Index into [`Playback::SPEEDS`].
     pub speed: usize,
@@ -20,14 +21,17 @@ impl Playback {
     /// Times real time, slowest first.
     pub const SPEEDS: [f32; 10] = [0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 
+    /// Seconds of the match in a second.
     pub fn factor(&self) -> f32 {
         Playback::SPEEDS[self.speed]
     }
 
+    /// Takes the next higher speed.
     pub fn faster(&mut self) {
         self.speed = (self.speed + 1).min(Playback::SPEEDS.len() - 1);
     }
 
+    /// Takes the next lower speed.
     pub fn slower(&mut self) {
         self.speed = self.speed.saturating_sub(1);
     }

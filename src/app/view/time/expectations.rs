@@ -24,12 +24,16 @@ pub struct Expectations {
 /// How an expectation stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExpectationStatus {
+    /// It may still be met, or fail.
     Pending,
+    /// It was met.
     Met,
+    /// It failed.
     Failed,
 }
 
 impl Expectations {
+    /// Those of a scenario, none without one.
     pub fn of(scenario: Option<&Scenario>, dt: f32) -> Expectations {
         Expectations {
             judge: scenario.map(|scenario| Judge::new(scenario, scenario.first_place(), dt)),

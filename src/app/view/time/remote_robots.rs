@@ -15,6 +15,7 @@ pub(super) fn plugin(app: &mut App) {
 /// The robots in other processes that do not take part.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missing {
+    /// The robots that have not answered.
     pub robots: Vec<Awaited>,
     /// Those that the person does not wait for any longer.
     pub given_up: Vec<RobotId>,
@@ -42,7 +43,7 @@ pub fn ask(world: &mut World) {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(in crate::app) mod tests {
     use std::net::{Ipv4Addr, UdpSocket};
     use std::path::Path;
     use std::time::Duration;

@@ -28,15 +28,21 @@ type Checked<T> = Result<T, DataError>;
 /// A scenario that can be played: every name is known, every number is sound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
+    /// What it shows, as a sentence.
     pub name: String,
+    /// Where the claim comes from.
     pub source: String,
+    /// More about it, for people.
     pub description: String,
     /// The file's name.
     pub radio: String,
+    /// The seeds that it is played with.
     pub seeds: Vec<u64>,
     /// With how many of the seeds it may fail, at each place of the ball.
     pub may_fail: usize,
+    /// How long it takes.
     pub seconds: f32,
+    /// Whether the rules of a match are enforced.
     pub referee: Referee,
     /// The robots that take part in the order of their numbers, home first.
     pub sides: [Option<Vec<ScenarioPlayer>>; 2],
@@ -44,10 +50,13 @@ pub struct Scenario {
     pub places: Vec<Vec2>,
     /// Of the ball at the start, m/s in the pitch frame.
     pub velocity: Vec2,
+    /// What the radio does to which packets.
     pub faults: Vec<FaultRule>,
     /// In the order of their times.
     pub script: Vec<TimedEvent>,
+    /// What must hold.
     pub expect: Vec<Expectation>,
+    /// What it is about: without it, it must fail.
     pub depends_on: Option<Dependency>,
 }
 
@@ -71,6 +80,7 @@ impl Scenario {
 /// A robot that takes part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScenarioPlayer {
+    /// Who.
     pub id: RobotId,
     /// In the pitch frame.
     pub pose: Pose,
@@ -83,7 +93,9 @@ pub struct ScenarioPlayer {
 /// What the files that a scenario names hold.
 #[derive(Clone, Debug)]
 pub struct Known<'a> {
+    /// The pitch.
     pub pitch: &'a Pitch,
+    /// The ball.
     pub ball: &'a BallKind,
     /// Home first; empty for a side that does not play.
     pub teams: [KnownTeam<'a>; 2],
@@ -96,9 +108,11 @@ pub struct Known<'a> {
 pub struct KnownTeam<'a> {
     /// Where each of its robots stands at its own kick-off.
     pub kick_off: &'a [Vec2],
+    /// Places of all players, by name.
     pub line_ups: BTreeMap<&'a str, &'a [Vec2]>,
     /// `None` for a side that does not play.
     pub kind: Option<&'a RobotKind>,
+    /// The names of its strategy's roles.
     pub roles: Vec<&'a str>,
     /// The states of all its machines.
     pub activities: Vec<&'a str>,
