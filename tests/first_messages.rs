@@ -165,7 +165,7 @@ fn the_first_message_of_each_kind_is_true_or_not_sent() {
     let strategies = assets().names(AssetKind::Strategy);
     let checked: BTreeMap<&str, usize> =
         strategies.iter().map(|strategy| (strategy.as_str(), check(strategy))).collect();
-    assert!(checked.len() >= 12, "{checked:?}");
+    assert!(checked.len() >= 8, "{checked:?}");
     // Where robots and have-ball or booking come twice from each of eight.
     assert!(checked.values().sum::<usize>() > 200, "{checked:?}");
 }

@@ -12,7 +12,7 @@ use super::greeting::{next_message, with_remote};
 use super::{HOME_0, HOME_1, address_of, datagram, figures, open, stranger, talkative};
 
 /// The match's session, as it introduces itself to a robot.
-fn session(game: &mut Match, robot: &UdpSocket) -> u32 {
+pub(super) fn session(game: &mut Match, robot: &UdpSocket) -> u32 {
     loop {
         net::poll_greeting(game.world_mut());
         if let Some(message) = next_message(robot) {
@@ -21,6 +21,11 @@ fn session(game: &mut Match, robot: &UdpSocket) -> u32 {
                 .session;
         }
     }
+}
+
+/// A datagram as it crosses the network between robots of a match.
+pub(super) fn stamped(session: u32, tick: u64, datagram: &[u8]) -> Vec<u8> {
+    [&b"TICK"[..], &session.to_le_bytes(), &tick.to_le_bytes(), datagram].concat()
 }
 
 /// Texts that a robot has received so far.
@@ -40,8 +45,7 @@ fn a_datagram_is_never_heard_in_the_tick_in_which_it_was_sent() {
     let mut send = |from: &UdpSocket, session: u32, tick: u64| {
         counter += 1;
         let text = datagram(HOME_1.into(), HOME_0.into(), counter, &TeamMessage::Text("hello".into()));
-        let stamp = [&b"TICK"[..], &session.to_le_bytes(), &tick.to_le_bytes()].concat();
-        from.send_to(&[stamp, text].concat(), to).expect("it is sent");
+        from.send_to(&stamped(session, tick, &text), to).expect("it is sent");
     };
     for tick in [0, 2, 1, 0] {
         send(&mate, session, tick);
