@@ -4,11 +4,11 @@
 //!
 //! ```
 //! # use bevy::prelude::*;
-//! # use touchline::comms::radio::RadioLog;
+//! # use touchline::comms::radio::RadioRecord;
 //! # use touchline::robot::{Percepts, PutDown, RobotStart};
 //! # use touchline::state::RegisterState;
 //! # let mut app = App::new();
-//! app.match_resource::<RadioLog>().starts_empty();
+//! app.match_resource::<RadioRecord>().starts_empty();
 //! app.match_component::<Percepts>()
 //!     .starts(|_: &RobotStart, _| Percepts::default())
 //!     .on(|percepts, _: &PutDown, _| *percepts = Percepts::default());
