@@ -1,0 +1,65 @@
+//! A match without a window.
+
+use bevy::prelude::*;
+
+use super::plan::MatchPlan;
+use super::record::Record;
+use super::start::start_match;
+use crate::clock::Clock;
+use crate::schedule::Tick;
+use crate::world::referee::{MatchState, Phase};
+
+/// A match without a window, run as fast as it can.
+pub struct Match {
+    app: App,
+}
+
+impl Match {
+    /// Starts a match in an app of its own.
+    pub fn new(plan: &MatchPlan) -> Match {
+        let mut app = App::new();
+        app.add_plugins(super::simulation);
+        app.finish();
+        app.cleanup();
+        start_match(app.world_mut(), plan);
+        Match { app }
+    }
+
+    /// Plays one tick.
+    pub fn tick(&mut self) {
+        let world = self.app.world_mut();
+        world.run_schedule(Tick);
+        // Otherwise the world remembers every message that has ever been delivered.
+        world.clear_trackers();
+    }
+
+    /// Whether the last half is over.
+    pub fn is_over(&self) -> bool {
+        self.app.world().resource::<MatchState>().phase == Phase::Finished
+    }
+
+    /// The world of the match.
+    pub fn world(&self) -> &World {
+        self.app.world()
+    }
+
+    /// The world of the match, to be changed.
+    pub fn world_mut(&mut self) -> &mut World {
+        self.app.world_mut()
+    }
+
+    /// Where the match stands.
+    pub fn state(&self) -> &MatchState {
+        self.app.world().resource::<MatchState>()
+    }
+
+    /// What was recorded so far.
+    pub fn record(&self) -> &Record {
+        self.app.world().resource::<Record>()
+    }
+
+    /// The match's clock.
+    pub fn clock(&self) -> Clock {
+        *self.app.world().resource::<Clock>()
+    }
+}

@@ -1,0 +1,68 @@
+//! Puts a match, or the mind of one robot, into a world.
+
+use bevy::prelude::*;
+
+use super::net;
+use super::plan::MatchPlan;
+use super::record::Record;
+use super::requests::{RequestLog, Script};
+use super::spawn::{spawn_ball, spawn_mind, spawn_robot};
+use crate::comms::radio::{Channel, FaultRules};
+use crate::comms::tcm::Addresses;
+use crate::ids::{MatchEntity, RobotId, Team};
+use crate::rng::Seed;
+use crate::state;
+use crate::strategy::Strategies;
+use crate::world::physics::open_world;
+use crate::world::referee::MatchState;
+
+/// Ends the match in this world, if there is one, and starts another from the beginning.
+pub fn start_match(world: &mut World, plan: &MatchPlan) {
+    let mut old = world.query_filtered::<Entity, With<MatchEntity>>();
+    for entity in old.iter(world).collect::<Vec<_>>() {
+        world.despawn(entity);
+    }
+    net::close(world);
+    begin(world, plan);
+    begin_match(world, plan);
+    open_world(world, &plan.pitch, MatchEntity);
+    spawn_ball(world, plan);
+    for id in plan.robots() {
+        spawn_robot(world, plan, id);
+    }
+    net::prepare(world, plan);
+}
+
+/// Puts one robot of a match into this world, without a body and without anybody else, for a process of its own.
+pub fn start_mind(world: &mut World, plan: &MatchPlan, robot: RobotId) -> Entity {
+    begin(world, plan);
+    spawn_mind(world, plan, robot)
+}
+
+/// Inserts the resources of a match and of a mind alone: those that start empty, and those of the plan.
+fn begin(world: &mut World, plan: &MatchPlan) {
+    state::begin(world);
+    world.insert_resource(Seed(plan.seed));
+    world.insert_resource(plan.pitch.clone());
+    world.insert_resource(plan.ball);
+    world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
+    world.insert_resource(Addresses(plan.directory()));
+    world.insert_resource(plan.tcm);
+}
+
+/// Inserts the resources of a match that start from the plan.
+fn begin_match(world: &mut World, plan: &MatchPlan) {
+    let seed = Seed(plan.seed);
+    world.insert_resource(plan.rules.clone());
+    world.insert_resource(match &plan.situation {
+        Some(situation) => MatchState::in_play(Team::Home, &plan.rules, situation.refereed),
+        None => MatchState::new(Team::Home, &plan.rules),
+    });
+    world.insert_resource(Record::new(seed, plan.robots()));
+    world.insert_resource(Script::new(&plan.script));
+    world.insert_resource(Channel::new(seed, plan.radio.clone()));
+    world.insert_resource(FaultRules::new(plan.faults.iter().cloned()));
+    if let Some(mut log) = world.get_resource_mut::<RequestLog>() {
+        log.0.clear();
+    }
+}
