@@ -7,6 +7,7 @@ mod booking;
 mod command_line;
 mod corpus;
 mod docs;
+mod fairness;
 mod first_messages;
 mod network;
 mod numbers;

@@ -10,7 +10,7 @@ use super::spawn::{spawn_ball, spawn_mind, spawn_robot};
 use crate::comms::radio::{Channel, FaultRules};
 use crate::comms::tcm::Addresses;
 use crate::ids::{MatchEntity, RobotId, Team};
-use crate::rng::Seed;
+use crate::rng::{Dice, Seed};
 use crate::state;
 use crate::strategy::Strategies;
 use crate::world::physics::open_world;
@@ -27,10 +27,20 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     begin_match(world, plan);
     open_world(world, &plan.pitch, MatchEntity);
     spawn_ball(world, plan);
-    for id in plan.robots() {
+    for id in in_drawn_order(plan) {
         spawn_robot(world, plan, id);
     }
     net::prepare(world, plan);
+}
+
+/// The robots of a match, one team after the other; a coin decides which is first. Rapier solves contacts one after the other in
+/// the order in which bodies are registered, which must favour neither side over many seeds.
+fn in_drawn_order(plan: &MatchPlan) -> Vec<RobotId> {
+    let away_first = Dice::new(Seed(plan.seed), "registration", None).chance(0.5);
+    let first = if away_first { Team::Away } else { Team::Home };
+    let mut robots: Vec<RobotId> = plan.robots().collect();
+    robots.sort_by_key(|id| id.team != first);
+    robots
 }
 
 /// Puts one robot of a match into this world, without a body and without anybody else, for a process of its own.

@@ -111,26 +111,30 @@ fn hold_ball_in_scoops(
     ball: Single<(&RapierRigidBodyHandle, &Pose), With<Ball>>,
     robots: Query<(&RobotId, &Robot, &RapierRigidBodyHandle, &Pose)>,
 ) {
-    let (ball_handle, ball_pose) = ball.into_inner();
-    let mut near: SmallVec<[_; 8]> =
-        robots.iter().filter(|(.., pose)| pose.position.distance(ball_pose.position) < NEAR).collect();
-    near.sort_unstable_by_key(|(id, ..)| **id);
-    for (_, robot, handle, pose) in near {
-        let Some(scoop) = &robot.kind.scoop else { continue };
-        let offset = pose.to_local(ball_pose.position);
-        let gap = offset.x - robot.kind.body.length / 2.0 - kind.radius;
-        if offset.x < 0.0 || gap > scoop.hold_reach {
-            continue;
-        }
-        let (Some(unit_body), Some(body)) = (bodies.get(handle), bodies.get(ball_handle)) else { continue };
-        let drift = body.linvel() - unit_body.velocity_at_point(ball_pose.position);
-        let local_drift = Vec2::new(drift.dot(pose.forward()), drift.dot(pose.forward().perp()));
-        let force = scoop_hold(scoop, gap, offset.y, local_drift);
-        let impulse = pose.forward().rotate(force) * clock.dt;
+    let (ball_handle, ball_pose) = *ball;
+    let mut pulls: SmallVec<[_; 4]> = (robots.iter())
+        .filter(|(.., pose)| pose.position.distance(ball_pose.position) < NEAR)
+        .filter_map(|(id, robot, handle, pose)| {
+            let scoop = robot.kind.scoop.as_ref()?;
+            let offset = pose.to_local(ball_pose.position);
+            let gap = offset.x - robot.kind.body.length / 2.0 - kind.radius;
+            if offset.x < 0.0 || gap > scoop.hold_reach {
+                return None;
+            }
+            let drift =
+                bodies.get(ball_handle)?.linvel() - bodies.get(handle)?.velocity_at_point(ball_pose.position);
+            let local_drift = Vec2::new(drift.dot(pose.forward()), drift.dot(pose.forward().perp()));
+            let force = scoop_hold(scoop, gap, offset.y, local_drift);
+            Some((*id, *handle, pose.forward().rotate(force) * clock.dt))
+        })
+        .collect();
+    // All pulls are known before the first one acts, and they act in an order that does not depend on the query's.
+    pulls.sort_unstable_by_key(|(id, ..)| *id);
+    for (_, handle, impulse) in pulls {
         if let Some(body) = bodies.get_mut(ball_handle) {
             body.apply_impulse(impulse, false);
         }
-        if let Some(unit_body) = bodies.get_mut(handle) {
+        if let Some(unit_body) = bodies.get_mut(&handle) {
             unit_body.apply_impulse_at_point(-impulse, ball_pose.position, false);
         }
     }

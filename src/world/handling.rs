@@ -8,17 +8,36 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
 use crate::pitch::BallKind;
-use crate::robot::handling::{Grip, Handling, Kicking, NearBall, launch};
+use crate::robot::handling::{Claim, Grip, Handling, Kicking, NearBall, kicked_together, launch};
 use crate::robot::pilot::Pilot;
 use crate::robot::{KickIntent, Orders, Robot, RobotState};
 use crate::schedule::{Tick, TickSystems};
+use crate::state::RegisterState;
 use crate::world::ball::{Ball, Rolling};
 use crate::world::drive::push_bodies;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
-    let systems = (decide_handling, strike_ball, hold_ball).chain().after(push_bodies);
+    app.match_resource::<BodyEvents>().starts_empty();
+    let systems = (decide_handling, grant_one_catch, strike_ball, hold_ball).chain().after(push_bodies);
     app.add_systems(Tick, systems.in_set(TickSystems::Drive));
+}
+
+/// What happened to robots' bodies in this tick.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct BodyEvents(pub Vec<(RobotId, BodyEvent)>);
+
+/// Something that happened to the body of a robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyEvent {
+    /// It began a kick.
+    KickTried,
+    /// Its kick met the ball.
+    KickStruck,
+    /// Its kick met nothing.
+    KickMissed,
+    /// Its chin got hold of the ball.
+    BallCaught,
 }
 
 type Handler<'a> = (&'a RobotId, &'a Robot, &'a RapierRigidBodyHandle, &'a Pose, &'a mut Handling);
@@ -33,9 +52,11 @@ fn decide_handling(
     bodies: Bodies,
     ball: Single<(&RapierRigidBodyHandle, &Pose), With<Ball>>,
     mut robots: Query<Wanting>,
+    mut events: ResMut<BodyEvents>,
 ) {
+    events.0.clear();
     let (ball, ball_pose) = *ball;
-    for ((_, robot, body, pose, mut handling), intent, pilot, orders) in &mut robots {
+    for ((&id, robot, body, pose, mut handling), intent, pilot, orders) in &mut robots {
         if robot.kind.chin.is_none() && robot.kind.kicks.is_empty() {
             continue;
         }
@@ -68,7 +89,37 @@ fn decide_handling(
             && if kick.from_hold { handling.holds() } else { near.is_some_and(|ball| in_reach(&ball, robot)) }
         {
             handling.kicking = Some(Kicking::begun(*kick, clock.tick, clock.ticks(kick.time)));
+            events.0.push((id, BodyEvent::KickTried));
         }
+    }
+}
+
+/// Only one chin is on the ball: the best [`Claim`] keeps it, and the other heads go up again.
+fn grant_one_catch(
+    clock: Res<Clock>,
+    ball: Single<&Pose, With<Ball>>,
+    mut robots: Query<(&RobotId, &Robot, &Pose, &mut Handling)>,
+    mut events: ResMut<BodyEvents>,
+) {
+    let mut claims: SmallVec<[_; 4]> = (robots.iter_mut())
+        .filter_map(|(&id, robot, pose, handling)| {
+            let (Grip::Holding { since }, Some(chin)) = (handling.grip, robot.kind.chin) else { return None };
+            let claim = Claim { since, off: pose.to_local(ball.position).distance(chin.pocket()), lot: 0.0 };
+            if since == clock.tick {
+                events.0.push((id, BodyEvent::BallCaught));
+            }
+            Some((claim, chin.time, handling))
+        })
+        .collect();
+    if claims.len() < 2 {
+        return;
+    }
+    for (claim, _, handling) in &mut claims {
+        claim.lot = handling.dice.uniform();
+    }
+    claims.sort_by(|(one, ..), (other, ..)| one.order(other));
+    for (_, time, handling) in &mut claims[1..] {
+        handling.grip = Grip::Raising { until: clock.tick + clock.ticks(*time) };
     }
 }
 
@@ -97,54 +148,59 @@ fn near_ball(
     Some(NearBall { at: pose.to_local(ball_pose.position), drift })
 }
 
-/// Sends the ball off where a kick meets it.
+/// Sends the ball off where a kick meets it. Kicks that meet it in one tick have their mean: a ball between two equal ones
+/// stays, whoever kicks first in the books.
 fn strike_ball(
     clock: Res<Clock>,
     mut bodies: Bodies,
     kind: Res<BallKind>,
     ball: Single<(&RapierRigidBodyHandle, &Pose, &mut Rolling), With<Ball>>,
     mut robots: Query<Handler>,
+    mut events: ResMut<BodyEvents>,
 ) {
     let (ball_handle, ball_pose, mut rolling) = ball.into_inner();
-    for (_, robot, body, pose, mut handling) in robots.iter_mut().sort::<&RobotId>() {
+    let mut kicks: SmallVec<[(RobotId, Vec2); 4]> = SmallVec::new();
+    for (&id, robot, body, pose, mut handling) in &mut robots {
         let Some(kicking) = handling.kicking.filter(|kicking| kicking.strikes == clock.tick) else {
             continue;
         };
         let near = near_ball((body, pose), (ball_handle, ball_pose), &bodies);
         let held = handling.holds();
         handling.grip = Grip::Open;
-        if !(held || near.is_some_and(|ball| in_reach(&ball, robot))) {
-            continue;
+        if held || near.is_some_and(|ball| in_reach(&ball, robot)) {
+            let kicked = launch(&kicking.kick, kind.rolling, &mut handling.dice);
+            kicks.push((id, unit(pose.heading).rotate(kicked)));
+            events.0.push((id, BodyEvent::KickStruck));
+        } else {
+            events.0.push((id, BodyEvent::KickMissed));
         }
-        let kicked = launch(&kicking.kick, kind.rolling, &mut handling.dice);
-        let velocity = unit(pose.heading).rotate(kicked);
-        if let Some(body) = bodies.get_mut(ball_handle) {
-            body.set_linvel(velocity, true);
-            *rolling = Rolling(velocity);
-        }
+    }
+    // A sum of three or more depends on its order in the last bits.
+    kicks.sort_unstable_by_key(|(id, _)| *id);
+    let velocities: SmallVec<[Vec2; 4]> = kicks.iter().map(|(_, velocity)| *velocity).collect();
+    if let (Some(velocity), Some(body)) = (kicked_together(&velocities), bodies.get_mut(ball_handle)) {
+        body.set_linvel(velocity, true);
+        *rolling = Rolling(velocity);
     }
 }
 
-/// Pulls held balls into their pockets.
+/// Pulls the held ball into its pocket.
 fn hold_ball(
     clock: Res<Clock>,
     mut bodies: Bodies,
     kind: Res<BallKind>,
     ball: Single<(&RapierRigidBodyHandle, &Pose), With<Ball>>,
-    robots: Query<(&RobotId, &Robot, &RapierRigidBodyHandle, &Pose, &Handling)>,
+    robots: Query<(&Robot, &RapierRigidBodyHandle, &Pose, &Handling)>,
 ) {
     let (ball_handle, ball_pose) = *ball;
-    let mut holding: SmallVec<[_; 8]> = robots.iter().filter(|(.., handling)| handling.holds()).collect();
-    holding.sort_unstable_by_key(|(id, ..)| **id);
-    for (_, robot, body, pose, _) in holding {
-        let Some(chin) = &robot.kind.chin else { continue };
-        let Some(near) = near_ball((body, pose), (ball_handle, ball_pose), &bodies) else { continue };
-        let impulse = unit(pose.heading).rotate(chin.pull(&near, kind.mass, clock.dt)) * clock.dt;
-        if let Some(ball) = bodies.get_mut(ball_handle) {
-            ball.apply_impulse(impulse, false);
-        }
-        if let Some(body) = bodies.get_mut(body) {
-            body.apply_impulse_at_point(-impulse, ball_pose.position, false);
-        }
+    let Some((robot, body, pose, _)) = robots.iter().find(|(.., handling)| handling.holds()) else { return };
+    let Some(chin) = &robot.kind.chin else { return };
+    let Some(near) = near_ball((body, pose), (ball_handle, ball_pose), &bodies) else { return };
+    let impulse = unit(pose.heading).rotate(chin.pull(&near, kind.mass, clock.dt)) * clock.dt;
+    if let Some(ball) = bodies.get_mut(ball_handle) {
+        ball.apply_impulse(impulse, false);
+    }
+    if let Some(body) = bodies.get_mut(body) {
+        body.apply_impulse_at_point(-impulse, ball_pose.position, false);
     }
 }

@@ -1,5 +1,7 @@
 //! Catching the ball under the chin and carrying it. Pure: time and dice are arguments.
 
+use std::cmp::Ordering;
+
 use bevy::prelude::*;
 
 use crate::robot::Chin;
@@ -91,6 +93,25 @@ impl Grip {
     }
 }
 
+/// What speaks for one of several robots whose chins have reached the ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Claim {
+    /// The tick in which it got hold of the ball.
+    pub since: u64,
+    /// From the ball to its pocket, m.
+    pub off: f32,
+    /// A number drawn for it.
+    pub lot: f32,
+}
+
+impl Claim {
+    /// The better claim is less: who held first, then whose pocket is nearer, then whose lot is less.
+    pub fn order(&self, other: &Claim) -> Ordering {
+        let by_place = || self.off.total_cmp(&other.off).then(self.lot.total_cmp(&other.lot));
+        self.since.cmp(&other.since).then_with(by_place)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,6 +160,17 @@ mod tests {
         assert_eq!(held.next(false, Some(&at_rest), &CHIN, (9, 18), || 0.0), Grip::Open);
         assert_eq!(after(held, Some(ball(0.18, 0.04, 0.0)), 9, 0.0), held);
         assert_eq!(after(held, Some(ball(0.24, 0.0, 0.0)), 9, 0.0), Grip::Open);
+    }
+
+    #[test]
+    fn of_two_chins_the_first_then_the_nearer_then_the_luckier_keeps_the_ball() {
+        let claim = |since, off, lot| Claim { since, off, lot };
+        let better = |one: Claim, other: Claim| {
+            assert_eq!((one.order(&other), other.order(&one)), (Ordering::Less, Ordering::Greater));
+        };
+        better(claim(3, 0.04, 0.9), claim(4, 0.01, 0.1));
+        better(claim(4, 0.01, 0.9), claim(4, 0.02, 0.1));
+        better(claim(4, 0.01, 0.1), claim(4, 0.01, 0.9));
     }
 
     #[test]

@@ -35,6 +35,12 @@ pub fn launch(kick: &Kick, rolling: f32, dice: &mut Dice) -> Vec2 {
     unit(direction.to_radians()) * (2.0 * rolling * run_out).sqrt()
 }
 
+/// The velocity in m/s of a ball that several kicks meet at once, each of which would give it one of these: their mean.
+/// Nothing if there is no kick.
+pub fn kicked_together(velocities: &[Vec2]) -> Option<Vec2> {
+    (!velocities.is_empty()).then(|| velocities.iter().sum::<Vec2>() / velocities.len() as f32)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,5 +79,14 @@ mod tests {
     fn a_kick_strikes_half_way() {
         let kicking = Kicking::begun(POWER, 100, 72);
         assert_eq!((kicking.strikes, kicking.until), (136, 172));
+    }
+
+    #[test]
+    fn two_kicks_at_once_have_their_mean_in_either_order() {
+        let (one, other) = (Vec2::new(1.2, 0.1), Vec2::new(-0.8, 0.3));
+        assert_eq!(kicked_together(&[one, other]), kicked_together(&[other, one]));
+        assert_eq!(kicked_together(&[one, -one]), Some(Vec2::ZERO));
+        assert_eq!(kicked_together(&[one]), Some(one));
+        assert_eq!(kicked_together(&[]), None);
     }
 }

@@ -5,8 +5,8 @@ mod kick;
 
 use bevy::prelude::*;
 
-pub use chin::{Grip, NearBall};
-pub use kick::{Kicking, launch};
+pub use chin::{Claim, Grip, NearBall};
+pub use kick::{Kicking, kicked_together, launch};
 
 use crate::ids::RobotId;
 use crate::rng::{Dice, Seed};

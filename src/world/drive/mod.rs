@@ -17,7 +17,6 @@ pub use wheels::{Rigid, push_wheels};
 
 use crate::clock::Clock;
 use crate::geometry::wrap_angle;
-use crate::ids::RobotId;
 use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{
@@ -123,16 +122,17 @@ impl DrivenItem<'_, '_> {
 #[derive(QueryData)]
 #[query_data(mutable)]
 pub(crate) struct Pushed {
-    id: &'static RobotId,
     robot: &'static Robot,
     handles: &'static RobotBodies,
     command: &'static DriveCommand,
     error: &'static mut GaitError,
 }
 
-/// In order, since Rapier remembers the order in which bodies are touched.
+/// In the order of registration, since Rapier remembers the order in which bodies are touched.
 pub(crate) fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, mut robots: Query<Pushed>) {
-    for mut pushed in robots.iter_mut().sort::<&RobotId>() {
+    for mut pushed in
+        robots.iter_mut().sort_by_key::<&RobotBodies, _>(|bodies| bodies.unit.0.into_raw_parts())
+    {
         match (&pushed.robot.kind.drive, *pushed.command) {
             (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
                 pushed.roll(speeds, drive, &mut bodies, &clock);
