@@ -8,7 +8,7 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
 use crate::pitch::BallKind;
-use crate::robot::handling::{Claim, Grip, Handling, Kicking, NearBall, kicked_together, launch};
+use crate::robot::handling::{Catch, Grip, Handling, Kicking, NearBall, kicked_together, launch};
 use crate::robot::pilot::Pilot;
 use crate::robot::{KickIntent, Orders, Robot, RobotState};
 use crate::schedule::{Tick, TickSystems};
@@ -94,7 +94,7 @@ fn decide_handling(
     }
 }
 
-/// Only one chin is on the ball: the best [`Claim`] keeps it, and the other heads go up again.
+/// Only one chin is on the ball: the best [`Catch`] keeps it, and the other heads go up again.
 fn grant_one_catch(
     clock: Res<Clock>,
     ball: Single<&Pose, With<Ball>>,
@@ -104,7 +104,7 @@ fn grant_one_catch(
     let mut claims: SmallVec<[_; 4]> = (robots.iter_mut())
         .filter_map(|(&id, robot, pose, handling)| {
             let (Grip::Holding { since }, Some(chin)) = (handling.grip, robot.kind.chin) else { return None };
-            let claim = Claim { since, off: pose.to_local(ball.position).distance(chin.pocket()), lot: 0.0 };
+            let claim = Catch { since, off: pose.to_local(ball.position).distance(chin.pocket()), lot: 0.0 };
             if since == clock.tick {
                 events.0.push((id, BodyEvent::BallCaught));
             }

@@ -95,7 +95,7 @@ impl Grip {
 
 /// What speaks for one of several robots whose chins have reached the ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Claim {
+pub struct Catch {
     /// The tick in which it got hold of the ball.
     pub since: u64,
     /// From the ball to its pocket, m.
@@ -104,9 +104,9 @@ pub struct Claim {
     pub lot: f32,
 }
 
-impl Claim {
+impl Catch {
     /// The better claim is less: who held first, then whose pocket is nearer, then whose lot is less.
-    pub fn order(&self, other: &Claim) -> Ordering {
+    pub fn order(&self, other: &Catch) -> Ordering {
         let by_place = || self.off.total_cmp(&other.off).then(self.lot.total_cmp(&other.lot));
         self.since.cmp(&other.since).then_with(by_place)
     }
@@ -164,8 +164,8 @@ mod tests {
 
     #[test]
     fn of_two_chins_the_first_then_the_nearer_then_the_luckier_keeps_the_ball() {
-        let claim = |since, off, lot| Claim { since, off, lot };
-        let better = |one: Claim, other: Claim| {
+        let claim = |since, off, lot| Catch { since, off, lot };
+        let better = |one: Catch, other: Catch| {
             assert_eq!((one.order(&other), other.order(&one)), (Ordering::Less, Ordering::Greater));
         };
         better(claim(3, 0.04, 0.9), claim(4, 0.01, 0.1));

@@ -5,7 +5,7 @@ mod kick;
 
 use bevy::prelude::*;
 
-pub use chin::{Claim, Grip, NearBall};
+pub use chin::{Catch, Grip, NearBall};
 pub use kick::{Kicking, kicked_together, launch};
 
 use crate::ids::RobotId;
