@@ -3,6 +3,8 @@
 
 mod expectations;
 mod places;
+mod script;
+mod sides;
 #[cfg(test)]
 mod tests;
 
@@ -11,11 +13,11 @@ use std::collections::BTreeMap;
 use bevy::prelude::Vec2;
 
 use super::condition::Expectation;
-use super::event::{Dependency, Event, TimedEvent};
-use super::file::{BallPlaces, PlayerFile, Referee, ScenarioFile, SideFile};
+use super::event::{Dependency, TimedEvent};
+use super::file::{BallPlaces, Referee, ScenarioFile};
 use super::watch::ticks;
 use crate::comms::radio::FaultRule;
-use crate::data::{Bound, DataError, Field, Source, Validate, check_count, no_such};
+use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
@@ -268,145 +270,5 @@ impl Checker<'_> {
             }
         }
         Ok(known)
-    }
-
-    fn side(&mut self, team: Team, side: &SideFile, at: &Field) -> Checked<Vec<ScenarioPlayer>> {
-        let players = match &side.players {
-            Some(players) if players.is_empty() => {
-                return self.fault(&at.key("players"), "needs at least one robot");
-            }
-            Some(players) => {
-                let at = |i| at.key("players").index(i);
-                players.iter().enumerate().map(|(i, it)| (it.clone(), at(i), at(i).key("at"))).collect()
-            }
-            None => self.line_up(team, side, at)?,
-        };
-        let players = players.iter().map(|(player, at, place)| self.player(team, player, at, place));
-        let mut players = players.collect::<Checked<Vec<_>>>()?;
-        players.sort_by_key(|player| player.id);
-        Ok(players)
-    }
-
-    /// All players of a strategy at the places of one of its line-ups, and where the file says so.
-    fn line_up(&self, team: Team, side: &SideFile, at: &Field) -> Checked<Vec<(PlayerFile, Field, Field)>> {
-        let known = &self.known.teams[team.index()];
-        let (places, at) = match &side.line_up {
-            None => (known.kick_off, at.clone()),
-            Some(name) => {
-                let at = at.key("line_up");
-                match known.line_ups.get(name.as_str()) {
-                    Some(places) => (*places, at),
-                    None => return self.fault(&at, no_such("line-up", name, known.line_ups.keys())),
-                }
-            }
-        };
-        let players = (0..).zip(places).map(|(number, place)| PlayerFile::at(number, *place));
-        Ok(players.map(|player| (player, at.clone(), at.clone())).collect())
-    }
-
-    /// A player that the file has at `at`, and its place at `place`.
-    fn player(
-        &mut self,
-        team: Team,
-        player: &PlayerFile,
-        at: &Field,
-        place: &Field,
-    ) -> Checked<ScenarioPlayer> {
-        let id = RobotId::new(team, player.number);
-        let players = self.known.teams[team.index()].kick_off.len();
-        if usize::from(player.number) >= players {
-            let known = (0..players).map(|number| number.to_string());
-            return self
-                .fault(&at.key("number"), no_such("player with number", &player.number.to_string(), known));
-        }
-        if self.robots.contains(&id) {
-            return self.fault(&at.key("number"), format!("{id} is given twice"));
-        }
-        self.on_pitch(player.at, place)?;
-        self.source.within(&at.key("facing"), player.facing, Bound::HEADING)?;
-        if let Some(role) = &player.role {
-            self.role(team, role, &at.key("role"))?;
-        }
-        self.robots.push(id);
-        let pose = Pose { position: player.at, heading: player.facing.to_radians() };
-        self.stands(id, pose, place);
-        Ok(ScenarioPlayer { id, pose, role: player.role.clone(), on: !player.off })
-    }
-
-    fn rule(&self, rule: &FaultRule, at: &Field) -> Checked<()> {
-        self.maybe_robot(rule.from, &at.key("from"))?;
-        self.maybe_robot(rule.to, &at.key("to"))?;
-        self.source.locate(at, rule.validate())
-    }
-
-    fn event(&self, event: &TimedEvent, at: &Field) -> Checked<()> {
-        self.time(event.at, &at.key("at"))?;
-        let at = at.key("what");
-        match &event.what {
-            Event::Crash(robot) => self.robot(*robot, &at.key("Crash")),
-            Event::Penalise(robot) => self.robot(*robot, &at.key("Penalise")),
-            Event::Freeze(robot) => self.robot(*robot, &at.key("Freeze")),
-            Event::Deaf(robot) => self.robot(*robot, &at.key("Deaf")),
-            Event::Mute(robot) => self.robot(*robot, &at.key("Mute")),
-            Event::CutOff(robot) => self.robot(*robot, &at.key("CutOff")),
-            Event::Reconnect(robot) => self.robot(*robot, &at.key("Reconnect")),
-            Event::Revive { robot, .. } => self.robot(*robot, &at.key("Revive").key("robot")),
-            Event::Partition(one, other) => self.partition(one, other, &at.key("Partition")),
-            Event::Heal | Event::Jam(_) => Ok(()),
-            Event::Radio(name) if self.known.radios.contains(name) => Ok(()),
-            Event::Radio(name) => self.fault(&at.key("Radio"), no_such("radio", name, &self.known.radios)),
-            Event::Ball { at: place, velocity } => {
-                self.on_pitch(*place, &at.key("Ball").key("at"))?;
-                self.source.vector_within(&at.key("Ball").key("velocity"), *velocity, Bound::VELOCITY)
-            }
-            Event::Push { robot, by } => {
-                self.robot(*robot, &at.key("Push").key("robot"))?;
-                self.source.vector_within(&at.key("Push").key("by"), *by, Bound::VELOCITY)
-            }
-            Event::Kidnap { robot, to, facing } => {
-                let at = at.key("Kidnap");
-                self.robot(*robot, &at.key("robot"))?;
-                self.on_pitch(*to, &at.key("to"))?;
-                self.source.within(&at.key("facing"), *facing, Bound::HEADING)
-            }
-            Event::InitiateSwap { robot, roles } => {
-                self.robot(*robot, &at.key("InitiateSwap").key("robot"))?;
-                self.swap(robot.team, roles, &at.key("InitiateSwap").key("roles"))
-            }
-        }
-    }
-
-    fn partition(&self, one: &[RobotId], other: &[RobotId], at: &Field) -> Checked<()> {
-        for (side, group) in [one, other].into_iter().enumerate() {
-            if group.is_empty() {
-                return self.fault(&at.index(side), "needs at least one robot");
-            }
-            for (i, robot) in group.iter().enumerate() {
-                self.robot(*robot, &at.index(side).index(i))?;
-            }
-            self.source.distinct(&at.index(side), group)?;
-        }
-        match other.iter().position(|robot| one.contains(robot)) {
-            Some(i) => self.fault(&at.index(1).index(i), format!("{} cannot be on both sides", other[i])),
-            None => Ok(()),
-        }
-    }
-
-    /// A swap takes and gives the same roles, each once.
-    fn swap(&self, team: Team, roles: &[(String, String)], at: &Field) -> Checked<()> {
-        for (i, (from, to)) in roles.iter().enumerate() {
-            self.role(team, from, &at.index(i).index(0))?;
-            self.role(team, to, &at.index(i).index(1))?;
-        }
-        let sorted = |side: fn(&(String, String)) -> &String| {
-            let mut names: Vec<&String> = roles.iter().map(side).collect();
-            names.sort();
-            names
-        };
-        let (from, to) = (sorted(|pair| &pair.0), sorted(|pair| &pair.1));
-        if roles.is_empty() || from != to || from.windows(2).any(|pair| pair[0] == pair[1]) {
-            return self.fault(at, "must take and give the same roles, each once");
-        }
-        Ok(())
     }
 }
