@@ -32,6 +32,11 @@ impl Clock {
         self.tick as f64 * f64::from(self.dt)
     }
 
+    /// Seconds since a tick; zero for one that is still to come.
+    pub fn seconds_since(&self, tick: u64) -> f32 {
+        self.tick.saturating_sub(tick) as f32 * self.dt
+    }
+
     /// The number of ticks, at least one, that is nearest to a time span in seconds.
     pub fn ticks(&self, seconds: f32) -> u64 {
         ((seconds / self.dt).round() as u64).max(1)

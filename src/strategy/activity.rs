@@ -5,11 +5,12 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::pieces::{Part, Play, RoleSpec, Strategy};
+use super::pieces::{Machine, Part, Play, RoleSpec, Strategy};
 use crate::geometry::Zone;
 
 /// Homebases from which a robot has looked around in vain since it knew the ball last, the latest last.
 pub type Searched = SmallVec<[Vec2; 4]>;
+
 /// What a robot is doing: the role it acts in, the state of that role's machine, and since when.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Activity {
@@ -19,6 +20,8 @@ pub struct Activity {
     pub state: usize,
     /// The tick in which the state was entered.
     pub since: u64,
+    /// The ticks in which the composite states around it were entered, the outermost first.
+    pub entered: SmallVec<[u64; 4]>,
     /// Where the robot goes when it has nothing better to do, m in the team frame.
     pub homebase: Vec2,
     /// The homebases from which it has looked for the ball in vain.
@@ -51,16 +54,26 @@ impl Activity {
             Part::ActsAs(sub_roles) => sub_roles[sub_roles.len() - 1].role,
         };
         let play = played(&strategy.roles[acting_as]);
-        let state = strategy.machines[play.machine].start;
-        let homebase = play.homebases[0];
-        Activity {
+        let machine = &strategy.machines[play.machine];
+        let mut activity = Activity {
             acting_as,
-            state,
+            state: machine.start,
             since: tick,
-            homebase,
+            entered: SmallVec::new(),
+            homebase: play.homebases[0],
             searched: Searched::new(),
             history: VecDeque::new(),
-        }
+        };
+        activity.enter(machine, machine.start, 0, tick);
+        activity
+    }
+
+    /// Goes to a state of a machine. Of the composite states that it is in, the outermost `kept` go on; others begin.
+    pub fn enter(&mut self, machine: &Machine, state: usize, kept: usize, tick: u64) {
+        self.entered.truncate(kept);
+        self.entered.resize(machine.states[state].within.len(), tick);
+        self.state = state;
+        self.since = tick;
     }
 
     /// The machine that the robot runs.
@@ -79,12 +92,23 @@ impl Activity {
         let acting = &old.roles[self.acting_as].name;
         let Some(acting_as) = new.roles.iter().position(|spec| spec.name == *acting) else { return fresh };
         let Part::Plays(play) = &new.roles[acting_as].part else { return fresh };
-        let machine = play.machine;
-        let state = &old.state(self.machine(old), self.state).name;
-        match new.machines[machine].states.iter().position(|candidate| candidate.name == *state) {
-            Some(state) => Activity { acting_as, state, ..self.clone() },
-            None => Activity { acting_as, state: new.machines[machine].start, since: tick, ..self.clone() },
+        let (before, machine) = (&old.machines[self.machine(old)], &new.machines[play.machine]);
+        let was = &before.states[self.state];
+        let mut activity = Activity { acting_as, ..self.clone() };
+        match machine.find(&was.name) {
+            Some(state) => {
+                // A composite state that is new around the state has been there for as long as the state itself.
+                let entered = |name: &str| {
+                    let known = before.names_of(was).zip(&self.entered).find(|(around, _)| *around == name);
+                    known.map_or(self.since, |(_, tick)| *tick)
+                };
+                let now = &machine.states[state];
+                activity.entered = machine.names_of(now).take(now.within.len()).map(entered).collect();
+                activity.state = state;
+            }
+            None => activity.enter(machine, machine.start, 0, tick),
         }
+        activity
     }
 
     /// Keeps a transition, and forgets the oldest.

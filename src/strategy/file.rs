@@ -87,7 +87,8 @@ pub struct MachineFile {
     pub states: BTreeMap<String, StateFile>,
 }
 
-/// What a robot does in a state, and what takes it to another one.
+/// What a robot does in a state, and what takes it to another one. A state may hold states of its own: then these say what the
+/// robot does, and the transitions of the outer one are taken from each of them, before their own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateFile {
@@ -115,6 +116,12 @@ pub struct StateFile {
     /// In order: the first transition whose feature holds is taken, at most one per decision.
     #[serde(default)]
     pub on: Vec<TransitionFile>,
+    /// The first of its own states.
+    #[serde(default)]
+    pub start: Option<String>,
+    /// Its own states by name. No two states of a machine have the same name, on whatever level they are.
+    #[serde(default)]
+    pub states: Option<BTreeMap<String, StateFile>>,
 }
 
 fn full_speed() -> f32 {
@@ -139,7 +146,7 @@ pub enum TurnFile {
 pub struct TransitionFile {
     /// When it is taken.
     pub when: Feature,
-    /// The next state.
+    /// The next state, on any level. One that holds others is entered at its start.
     pub go: String,
 }
 

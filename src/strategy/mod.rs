@@ -22,8 +22,8 @@ use crate::ids::Team;
 pub use activity::{Activity, Searched, TransitionTaken, played};
 pub use file::StrategyFile;
 pub use pieces::{
-    Assemblage, Combination, HomebaseRule, KickOff, Machine, Part, Play, RoleSpec, State, Strategy, SubRole,
-    Term, Transition, Turn,
+    Assemblage, Combination, CompositeState, HomebaseRule, KickOff, Machine, Part, Play, RoleSpec, State,
+    Strategy, SubRole, Term, Transition, Turn,
 };
 pub use reading::{StrategyReading, TeamworkChange};
 pub use role::{Role, RoleRef};

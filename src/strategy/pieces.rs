@@ -102,8 +102,19 @@ pub struct Machine {
     pub name: String,
     /// The first state's index.
     pub start: usize,
-    /// The states.
+    /// The states that a robot can be in: those that hold no others, from all levels.
     pub states: Vec<State>,
+    /// The states that hold others.
+    pub composites: Vec<CompositeState>,
+}
+
+/// A state that holds others: a robot is in it while it is in one of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompositeState {
+    /// Its name.
+    pub name: String,
+    /// Taken from each state in it, before that state's own. In order; the first whose feature holds is taken.
+    pub transitions: Vec<Transition>,
 }
 
 /// An activity.
@@ -127,6 +138,8 @@ pub struct State {
     pub kicks: Vec<String>,
     /// In order; the first whose feature holds is taken.
     pub transitions: Vec<Transition>,
+    /// Indices of the composite states around it, the outermost first.
+    pub within: Vec<usize>,
 }
 
 /// What a standing robot turns to.
@@ -147,6 +160,8 @@ pub struct Transition {
     pub when: Feature,
     /// The next state's index.
     pub go: usize,
+    /// How many composite states are around the one that the file names: only those can go on, all others begin.
+    pub around: usize,
     /// The feature as the file has it, for people.
     pub label: String,
 }
@@ -180,6 +195,24 @@ pub struct Term {
     pub name: String,
     /// The schema.
     pub schema: Schema,
+}
+
+impl Machine {
+    /// The place of the state with this name, if it has one.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.states.iter().position(|state| state.name == name)
+    }
+
+    /// The names of the composite states around a state, the outermost first, and its own: what a robot in it is in.
+    pub fn names_of<'a>(&'a self, state: &'a State) -> impl Iterator<Item = &'a str> {
+        let around = state.within.iter().map(|composite| self.composites[*composite].name.as_str());
+        around.chain([state.name.as_str()])
+    }
+
+    /// A state with the composite states around it, such as `play/strike`, for people.
+    pub fn path(&self, state: &State) -> String {
+        self.names_of(state).collect::<Vec<_>>().join("/")
+    }
 }
 
 impl Strategy {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::ids::Team::{Away, Home};
-use crate::strategy::{Searched, Strategies};
+use crate::strategy::Strategies;
 use crate::testing::BALL;
 use crate::world::referee::RuleBook;
 
@@ -35,14 +35,7 @@ fn app() -> App {
 /// A robot on the x axis.
 fn robot(app: &mut App, team: Team, number: u8, x: f32) -> Entity {
     let id = RobotId::new(team, number);
-    let activity = Activity {
-        acting_as: 0,
-        state: 0,
-        since: 0,
-        homebase: Vec2::ZERO,
-        searched: Searched::new(),
-        history: Default::default(),
-    };
+    let activity = Activity::new(&crate::testing::idle(), 0, 0);
     let trailer = Trailer { of: id, middle: Vec2::ZERO, radius: 0.3 };
     app.world_mut().spawn((trailer, Pose::new(x, 1.0, 0.0)));
     app.world_mut().spawn((id, Pose::new(x, 0.0, 0.0), Twist::default(), Role(0), activity)).id()

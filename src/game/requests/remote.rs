@@ -47,7 +47,10 @@ pub(super) fn hear_remote_robots(
                 if let Some((known, acting_as, state)) = activity_of(wants, strategies.of(robot.team)) {
                     role.0 = known;
                     if (activity.acting_as, activity.state) != (acting_as, state) {
-                        *activity = Activity { acting_as, state, since: wants.tick, ..activity.clone() };
+                        activity.acting_as = acting_as;
+                        let strategy = strategies.of(robot.team);
+                        let machine = &strategy.machines[activity.machine(strategy)];
+                        activity.enter(machine, state, 0, wants.tick);
                     }
                 }
             }

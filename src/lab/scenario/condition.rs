@@ -84,7 +84,7 @@ pub enum Condition {
     RoleOf(RobotId, String),
     /// The sub-role of a robot whose role acts as others by turns; the role itself for all others.
     ActingAs(RobotId, String),
-    /// The robot's state is one of these.
+    /// The robot's state, or one around it, is one of these.
     ActivityOf(RobotId, Vec<String>),
     /// The robot itself claims the ball.
     Claims(RobotId),

@@ -35,7 +35,7 @@ pub(super) fn find<'s>(condition: &'s Condition, scene: &'s Scene) -> Finding<'s
         Condition::ActivityOf(robot, names) => of(
             scene,
             *robot,
-            move |it| names.iter().any(|name| it.activity == name),
+            move |it| names.iter().any(|name| it.activity == name || it.within.contains(&name.as_str())),
             move |it, held| format!("was in {}{}", it.activity, unless(held, &list(names, " or "))),
         ),
         Condition::Claims(robot) => of(

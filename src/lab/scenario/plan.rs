@@ -245,13 +245,16 @@ fn team(
 
 fn known(team: &TeamPlan) -> KnownTeam<'_> {
     let strategy = &team.strategy;
-    let states = strategy.machines.iter().flat_map(|machine| &machine.states);
+    let states = strategy.machines.iter().flat_map(|machine| {
+        let composites = machine.composites.iter().map(|state| state.name.as_str());
+        composites.chain(machine.states.iter().map(|state| state.name.as_str()))
+    });
     KnownTeam {
         kick_off: &strategy.kick_off.ours,
         line_ups: strategy.line_ups.iter().map(|(name, places)| (name.as_str(), &places[..])).collect(),
         kind: Some(&team.kind),
         roles: strategy.roles.iter().map(|role| role.name.as_str()).collect(),
-        activities: states.map(|state| state.name.as_str()).collect(),
+        activities: states.collect(),
     }
 }
 

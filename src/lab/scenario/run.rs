@@ -114,6 +114,8 @@ fn robot_scene<'a>(
     (id, robot, pose, twist, role, activity, team_model, swapping, booking): Seen,
     strategy: &'a Strategy,
 ) -> RobotScene<'a> {
+    let machine = &strategy.machines[activity.machine(strategy)];
+    let state = &machine.states[activity.state];
     let configuration = swapping.and_then(|swapping| swapping.machine.configuration());
     RobotScene {
         id: *id,
@@ -122,7 +124,8 @@ fn robot_scene<'a>(
         on: !robot.health.crashed,
         role: &strategy.roles[role.0].name,
         acting_as: &strategy.roles[activity.acting_as].name,
-        activity: &strategy.state(activity.machine(strategy), activity.state).name,
+        activity: &state.name,
+        within: machine.names_of(state).take(state.within.len()).collect(),
         claims: team_model.has_ball,
         holder: if team_model.has_ball {
             Some(id.number)

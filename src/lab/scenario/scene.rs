@@ -47,6 +47,8 @@ pub struct RobotScene<'a> {
     pub acting_as: &'a str,
     /// The name of its machine's state.
     pub activity: &'a str,
+    /// The names of the composite states around that, the outermost first.
+    pub within: Vec<&'a str>,
     /// Whether it claims the ball.
     pub claims: bool,
     /// The number of the robot of its team that, as it believes, holds the ball.

@@ -94,6 +94,7 @@ impl Default for Stage {
             role,
             acting_as: role,
             activity: "search",
+            within: Vec::new(),
             claims: false,
             holder: None,
             goes: false,

@@ -143,6 +143,7 @@ mod tests {
             hold: false,
             kicks: Vec::new(),
             transitions: Vec::new(),
+            within: Vec::new(),
         }
     }
 

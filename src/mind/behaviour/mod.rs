@@ -1,6 +1,7 @@
 //! The Behaviour stage: which sub-role a robot acts in, which homebase it has, and which state its machine is in.
 //!
-//! At most one transition a decision, the first whose feature holds, as in Clay.
+//! At most one transition a decision, the first whose feature holds, as in Clay; those of outer states are asked before those of
+//! the states in them (TeamChaos, section 2: a hierarchical finite state machine).
 
 mod homebase;
 #[cfg(test)]
@@ -78,7 +79,7 @@ fn choose_activities(
         let now = senses(&activity);
         homebase::note_search(play, state, &mut activity.searched, &now);
         activity.homebase = homebase::choose(play, activity.homebase, &activity.searched, &now);
-        take_transition(&senses(&activity), strategy, memory, &mut activity, clock.tick);
+        take_transition(&senses(&activity), strategy, memory, &mut activity, &clock);
     }
 }
 
@@ -92,9 +93,9 @@ fn choose_sub_role(
     let wanted = match &strategy.roles[senses.role].part {
         Part::Plays(_) => senses.role,
         Part::ActsAs(sub_roles) => {
-            let fits = first_that_holds(sub_roles.iter().map(|sub_role| &sub_role.when), senses, memory);
-            match fits {
-                Some(index) => sub_roles[index].role,
+            let choices = sub_roles.iter().map(|sub_role| (*senses, &sub_role.when, sub_role.role));
+            match first_that_holds(choices, memory) {
+                Some(role) => role,
                 None if sub_roles.iter().any(|sub_role| sub_role.role == activity.acting_as) => return,
                 None => sub_roles[0].role,
             }
@@ -103,24 +104,22 @@ fn choose_sub_role(
     if wanted == activity.acting_as {
         return;
     }
-    let before = strategy.state(activity.machine(strategy), activity.state).name.clone();
+    let before = strategy.state(activity.machine(strategy), activity.state);
     activity.acting_as = wanted;
     let machine = &strategy.machines[activity.machine(strategy)];
-    activity.state = machine.states.iter().position(|state| state.name == before).unwrap_or(machine.start);
-    activity.since = tick;
+    activity.enter(machine, machine.find(&before.name).unwrap_or(machine.start), 0, tick);
     let after = format!("{} as {}", machine.states[activity.state].name, strategy.roles[wanted].name);
-    activity.note(tick, &before, &after, "sub-role");
+    activity.note(tick, &before.name, &after, "sub-role");
 }
 
-/// The place of the first feature that holds. All are asked, so that memories do not depend on their order.
-fn first_that_holds<'a>(
-    features: impl Iterator<Item = &'a Feature>,
-    senses: &Perception,
+/// The first choice whose feature holds. All are asked, so that memories do not depend on their order.
+fn first_that_holds<'a, T>(
+    choices: impl Iterator<Item = (Perception<'a>, &'a Feature, T)>,
     memory: &mut Memory,
-) -> Option<usize> {
-    features.enumerate().fold(None, |first, (index, feature)| {
+) -> Option<T> {
+    choices.fold(None, |first, (senses, feature, choice)| {
         let holds = senses.holds(feature, memory);
-        first.or(holds.then_some(index))
+        first.or(holds.then_some(choice))
     })
 }
 
@@ -129,14 +128,20 @@ fn take_transition(
     strategy: &Strategy,
     memory: &mut Memory,
     activity: &mut Activity,
-    tick: u64,
+    clock: &Clock,
 ) {
     let machine = &strategy.machines[activity.machine(strategy)];
     let state = &machine.states[activity.state];
-    let features = state.transitions.iter().map(|transition| &transition.when);
-    let Some(index) = first_that_holds(features, senses, memory) else { return };
-    let transition = &state.transitions[index];
-    activity.state = transition.go;
-    activity.since = tick;
-    activity.note(tick, &state.name, &machine.states[transition.go].name, &transition.label);
+    // To an outer state's transitions, the time in the state is the time in the outer one.
+    let outer = state.within.iter().zip(&activity.entered).map(|(composite, entered)| {
+        let senses = Perception { time_in_state: clock.seconds_since(*entered), ..*senses };
+        (senses, &machine.composites[*composite].transitions)
+    });
+    let ways = outer.chain([(*senses, &state.transitions)]);
+    let ways = ways.flat_map(|(senses, ways)| ways.iter().map(move |way| (senses, &way.when, way)));
+    let Some(transition) = first_that_holds(ways, memory) else { return };
+    let next = &machine.states[transition.go];
+    let shared = state.within.iter().zip(&next.within).take_while(|(old, new)| old == new).count();
+    activity.enter(machine, transition.go, shared.min(transition.around), clock.tick);
+    activity.note(clock.tick, &state.name, &next.name, &transition.label);
 }

@@ -1,5 +1,7 @@
 //! Decisions of one robot: sub-roles, homebases, transitions, and what is left of them under a changed strategy.
 
+mod hierarchy;
+
 use crate::ids::RobotId;
 use crate::mind::teamwork::TeamModel;
 use crate::mind::world_model::WorldModel;

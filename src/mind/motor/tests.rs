@@ -22,6 +22,7 @@ fn driving(speed: f32) -> State {
         hold: false,
         kicks: vec![],
         transitions,
+        within: vec![],
     }
 }
 

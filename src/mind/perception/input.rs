@@ -50,7 +50,6 @@ pub fn perception<'a>(
     strategy: &'a Strategy,
     (clock, pitch, ball): (&Clock, &'a Pitch, &BallKind),
 ) -> Perception<'a> {
-    let seconds_since = |tick: u64| clock.tick.saturating_sub(tick) as f32 * clock.dt;
     Perception {
         team: input.id.team,
         role: input.role.0,
@@ -61,8 +60,8 @@ pub fn perception<'a>(
         danger_zone: activity.danger_zone(strategy),
         homebase: activity.homebase,
         now: clock.now() as f32,
-        ball_age: input.model.ball.map(|ball| seconds_since(ball.seen)),
-        time_in_state: seconds_since(activity.since),
+        ball_age: input.model.ball.map(|ball| clock.seconds_since(ball.seen)),
+        time_in_state: clock.seconds_since(activity.since),
         holds_ball: input.handling.holds(),
         stalled_for: input.odometry.stalled_for,
         front: input.robot.kind.body.length / 2.0,

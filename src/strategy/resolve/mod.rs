@@ -1,6 +1,7 @@
 //! From a strategy file to a strategy: looks every name up, checks every number, and numbers the memories of stateful
 //! operators. The first fault is reported with its place in the file.
 
+mod machine;
 mod teamwork;
 #[cfg(test)]
 mod tests;
@@ -10,11 +11,10 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
 
-use super::file::{AssemblageFile, MachineFile, RoleFile, StateFile, StrategyFile, TurnFile};
+use super::file::{AssemblageFile, RoleFile, StrategyFile};
 use super::language::Feature;
 use super::pieces::{
-    Assemblage, Combination, HomebaseRule, Machine, Part, Play, RoleSpec, State, Strategy, SubRole, Term,
-    Transition, Turn, stretched,
+    Assemblage, Combination, HomebaseRule, Part, Play, RoleSpec, Strategy, SubRole, Term, stretched,
 };
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Zone;
@@ -223,56 +223,6 @@ impl Resolver<'_> {
             s.schema(schema, &Field::root().key("schemas").key(name))
         })?;
         Ok(Term { weight, name: name.into(), schema })
-    }
-
-    fn machine(&mut self, name: &str, file: &MachineFile, at: &Field) -> Resolved<Machine> {
-        self.count("states", file.states.len(), MOST_PIECES, &at.key("states"))?;
-        let start = self.index(&file.states, "state", &file.start, &at.key("start"))?;
-        let states = (file.states.iter())
-            .map(|(name, state)| self.state(name, state, file, &at.key("states").key(name)))
-            .collect::<Resolved<_>>()?;
-        Ok(Machine { name: name.into(), start, states })
-    }
-
-    fn state(&mut self, name: &str, file: &StateFile, machine: &MachineFile, at: &Field) -> Resolved<State> {
-        let assemblage = match &file.run {
-            Some(run) => Some(self.index(&self.file.assemblages, "assemblage", run, &at.key("run"))?),
-            None => None,
-        };
-        let turn = match &file.turn {
-            TurnFile::Stay => Turn::Stay,
-            TurnFile::Face(point) => {
-                let mut point = point.clone();
-                self.point(&mut point, &at.key("turn"))?;
-                Turn::Face(point)
-            }
-            TurnFile::Spin(rate) => {
-                self.within(*rate, Bound::TURN_RATE.signed(), &at.key("turn"))?;
-                Turn::Spin(rate.to_radians())
-            }
-        };
-        let mut transitions = Vec::with_capacity(file.on.len());
-        for (i, transition) in file.on.iter().enumerate() {
-            let at = at.key("on").index(i);
-            transitions.push(Transition {
-                when: self.resolved_feature(&transition.when, &at.key("when"))?,
-                go: self.index(&machine.states, "state", &transition.go, &at.key("go"))?,
-                label: transition.when.to_string(),
-            });
-        }
-        self.within(file.speed, Bound::SHARE, &at.key("speed"))?;
-        self.source.distinct(&at.key("kick"), &file.kick)?;
-        Ok(State {
-            name: name.into(),
-            assemblage,
-            speed: file.speed,
-            reverse: file.reverse,
-            acquires: file.acquires,
-            hold: file.hold,
-            kicks: file.kick.clone(),
-            turn,
-            transitions,
-        })
     }
 
     fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Resolved<RoleSpec> {

@@ -130,3 +130,100 @@ fn every_number_has_a_bound() {
         assert!(error.contains(expected), "{error}");
     }
 }
+
+/// A strategy whose machine has these states and starts in `s`.
+fn with_states(states: &str) -> Result<Strategy, String> {
+    read(&with("").replace(r#"{"s": (turn: Spin(90), speed: 0.5)}"#, &format!("{{{states}}}")))
+}
+
+#[test]
+fn states_within_states_become_one_row_that_knows_what_is_around_each() {
+    let strategy = with_states(
+        r#""s": (on: [(when: HasBall, go: "play")]),
+        "play": (acquires: true, start: "hit", on: [(when: HasBooked, go: "s")], states: {
+            "aim": (on: [(when: HoldsBall, go: "hit")]),
+            "hit": (start: "kick", states: {"kick": (on: [(when: Always, go: "play")]), "nudge": ()}),
+        })"#,
+    );
+    let machine = &strategy.expect("it is sound").machines[0];
+    let paths: Vec<String> = machine.states.iter().map(|state| machine.path(state)).collect();
+    assert_eq!(paths, ["play/aim", "play/hit/kick", "play/hit/nudge", "s"]);
+    assert_eq!(machine.states[machine.start].name, "s");
+    let to = |state: &str, way: usize| {
+        let transition = &machine.states[machine.find(state).unwrap()].transitions[way];
+        (machine.states[transition.go].name.as_str(), transition.around)
+    };
+    assert_eq!(to("s", 0), ("kick", 0), "a composite state is entered at its start, and that at its own");
+    assert_eq!(to("aim", 0), ("kick", 1), "`hit` begins, `play` around it goes on");
+    assert_eq!(to("kick", 0), ("kick", 0), "`play` itself begins anew");
+    let acquires = |name: &str| machine.states[machine.find(name).unwrap()].acquires;
+    assert_eq!(["aim", "nudge", "s"].map(acquires), [true, true, false]);
+    let ways = machine.composites.iter().map(|state| (state.name.as_str(), state.transitions.len()));
+    assert_eq!(ways.collect::<Vec<_>>(), [("play", 1), ("hit", 0)]);
+}
+
+#[test]
+fn what_is_wrong_with_states_within_states_is_said_at_its_place() {
+    for (states, expected) in [
+        (
+            r#""s": (start: "b", states: {"a": ()})"#,
+            "machines.m.states.s.start: there is no state `b`; known: a",
+        ),
+        (
+            r#""s": (start: "s", states: {"a": ()})"#,
+            "machines.m.states.s.start: there is no state `s`; known: a",
+        ),
+        (r#""s": (start: "a", states: {})"#, "machines.m.states.s.states: needs at least one state"),
+        (
+            r#""s": (states: {"a": ()})"#,
+            "machines.m.states.s: `start` must say which of its `states` is the first",
+        ),
+        (
+            r#""s": (start: "a")"#,
+            "machines.m.states.s.start: a state without `states` of its own has no start",
+        ),
+        (
+            r#""s": (start: "a", states: {"a": ()}), "t": (start: "a", states: {"a": ()})"#,
+            "machines.m.states.t.states.a: another state of this machine has the same name",
+        ),
+        (
+            r#""s": (start: "a", states: {"a": (on: [(when: Always, go: "c")]), "b": ()})"#,
+            "machines.m.states.s.states.a.on[0].go: there is no state `c`; known: a, b, s",
+        ),
+        (
+            r#""s": (start: "a", on: [(when: Always, go: "c")], states: {"a": ()})"#,
+            "machines.m.states.s.on[0].go: there is no state `c`; known: a, s",
+        ),
+        (
+            r#""s": (start: "a", run: "x", states: {"a": ()})"#,
+            "machines.m.states.s.run: must be said of the states in it",
+        ),
+        (
+            r#""s": (start: "a", speed: 0.5, states: {"a": ()})"#,
+            "machines.m.states.s.speed: must be said of the states in it",
+        ),
+    ] {
+        let error = with_states(states).unwrap_err();
+        assert!(error.starts_with("x.ron:2:") && error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn states_may_hold_states_but_not_without_end() {
+    let nested = |depth: usize| {
+        let mut states = String::from(r#""s": ()"#);
+        for level in 0..depth {
+            let start = if level == 0 { "s".to_owned() } else { format!("s{}", level - 1) };
+            states = format!(r#""s{level}": (start: "{start}", states: {{{states}}})"#);
+        }
+        read(
+            &with("")
+                .replace(r#"{"s": (turn: Spin(90), speed: 0.5)}"#, &format!("{{{states}}}"))
+                .replace(r#"start: "s", states: {"s1"#, r#"start: "s1", states: {"s1"#),
+        )
+    };
+    assert_eq!(nested(2).map(|strategy| strategy.machines[0].composites.len()), Ok(2));
+    for depth in [100, 1000] {
+        assert!(nested(depth).is_err());
+    }
+}

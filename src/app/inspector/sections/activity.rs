@@ -13,10 +13,10 @@ const SHOWN: usize = 5;
 pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
     let activity = robot.of.activity;
     let machine = robot.strategy.machines.get(activity.machine(robot.strategy));
-    let state = robot.activity().map_or(format::UNKNOWN, |state| &state.name);
+    let state = machine.zip(robot.activity()).map(|(machine, state)| machine.path(state));
     let since = format::seconds(robot.since(activity.since));
     ui.horizontal(|ui| {
-        ui.label(RichText::new(state).strong().size(15.0));
+        ui.label(RichText::new(state.as_deref().unwrap_or(format::UNKNOWN)).strong().size(15.0));
         ui.label(format!("for {since}"));
         if let Some(machine) = machine {
             ui.weak(format!("of the machine {}", machine.name));
