@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::desirability::Desirability;
 use super::language::{Feature, Point, Points, Schema};
 use super::pieces::{HomebaseRule, KickOff};
 use super::teamwork::TeamworkFile;
@@ -75,6 +76,25 @@ pub enum AssemblageFile {
     WeightedSum(Vec<(f32, String)>),
     /// The strongest schema alone.
     WinnerTakeAll(Vec<(f32, String)>),
+    /// Several assemblages, each as far as it is desirable.
+    Blend(Vec<BlendedFile>),
+}
+
+/// An assemblage within another.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlendedFile {
+    /// The assemblage.
+    pub run: String,
+    /// How much it counts when it is fully desirable.
+    #[serde(default = "full_weight")]
+    pub weight: f32,
+    /// How desirable it is.
+    pub desirability: Desirability,
+}
+
+fn full_weight() -> f32 {
+    1.0
 }
 
 /// A finite state machine: each state is an activity.

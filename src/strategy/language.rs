@@ -277,6 +277,8 @@ pub enum SchemaKind {
     Handling,
     /// It heeds nothing around the robot.
     Unguided,
+    /// It is an assemblage within another and does several of these.
+    Blended,
 }
 
 impl Schema {
@@ -303,6 +305,7 @@ impl SchemaKind {
             SchemaKind::Detour => "leads the robot around things",
             SchemaKind::Handling => "works at the ball",
             SchemaKind::Unguided => "heeds nothing around the robot",
+            SchemaKind::Blended => "an assemblage, as far as it is desirable now",
         }
     }
 }

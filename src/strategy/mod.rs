@@ -5,6 +5,7 @@
 
 mod activity;
 mod base;
+mod desirability;
 mod display;
 mod file;
 pub mod language;
@@ -20,10 +21,11 @@ use bevy::prelude::*;
 
 use crate::ids::Team;
 pub use activity::{Activity, Searched, TransitionTaken, played};
+pub use desirability::Desirability;
 pub use file::StrategyFile;
 pub use pieces::{
-    Assemblage, Combination, CompositeState, HomebaseRule, KickOff, Machine, Part, Play, RoleSpec, State,
-    Strategy, SubRole, Term, Transition, Turn,
+    Assemblage, Combination, CompositeState, HomebaseRule, Influence, KickOff, Machine, Part, Play, RoleSpec,
+    State, Strategy, SubRole, Term, Transition, Turn,
 };
 pub use reading::{StrategyReading, TeamworkChange};
 pub use role::{Role, RoleRef};

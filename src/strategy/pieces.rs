@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::language::{Feature, Point, Schema};
+use super::desirability::Desirability;
+use super::language::{Feature, Point, Schema, SchemaKind};
 use super::role::RoleRef;
 use super::teamwork::Teamwork;
 use crate::geometry::Zone;
@@ -166,14 +167,14 @@ pub struct Transition {
     pub label: String,
 }
 
-/// Weighted motor schemas.
+/// Weighted motor schemas, or a blend of other assemblages.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assemblage {
     /// Its name.
     pub name: String,
-    /// How the schemas become one vector.
+    /// How the terms become one vector.
     pub combination: Combination,
-    /// The schemas with their weights.
+    /// The schemas or assemblages with their weights.
     pub terms: Vec<Term>,
 }
 
@@ -184,17 +185,39 @@ pub enum Combination {
     WeightedSum,
     /// The strongest schema alone.
     WinnerTakeAll,
+    /// The mean of assemblages, weighted by how desirable each is (TeamChaos, section 2: tactical behaviours).
+    Blend,
 }
 
-/// A motor schema and its weight.
+/// A motor schema or an assemblage, and its weight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
     /// How much it counts.
     pub weight: f32,
-    /// The schema's name.
+    /// The name of the schema or the assemblage.
     pub name: String,
-    /// The schema.
-    pub schema: Schema,
+    /// What it adds.
+    pub influence: Influence,
+}
+
+/// What a term adds to an assemblage.
+#[derive(Clone, Debug, PartialEq)]
+#[expect(missing_docs, reason = "each variant says what its fields are")]
+pub enum Influence {
+    /// The vector of a motor schema.
+    Schema(Schema),
+    /// The vector of another assemblage, by its index, as far as that is desirable.
+    Assemblage { index: usize, desirability: Desirability },
+}
+
+impl Term {
+    /// What it does to a robot.
+    pub fn kind(&self) -> SchemaKind {
+        match &self.influence {
+            Influence::Schema(schema) => schema.kind(),
+            Influence::Assemblage { .. } => SchemaKind::Blended,
+        }
+    }
 }
 
 impl Machine {

@@ -96,6 +96,7 @@ pub const fn schema(kind: SchemaKind) -> Color {
         SchemaKind::Detour => rgb(0xF5_9E_1B),
         SchemaKind::Handling => rgb(0xFF_D1_66),
         SchemaKind::Unguided => rgb(0xC8_A2_6B),
+        SchemaKind::Blended => rgb(0x7F_C8_F8),
     }
 }
 
@@ -130,8 +131,8 @@ mod tests {
 
     #[test]
     fn every_kind_of_schema_every_team_and_every_number_has_a_colour_of_its_own() {
-        use SchemaKind::{Attraction, Detour, Handling, Repulsion, Unguided};
-        let mut seen = [Attraction, Repulsion, Detour, Handling, Unguided].map(schema).to_vec();
+        use SchemaKind::{Attraction, Blended, Detour, Handling, Repulsion, Unguided};
+        let mut seen = [Attraction, Repulsion, Detour, Handling, Unguided, Blended].map(schema).to_vec();
         seen.extend(Team::BOTH.map(team));
         seen.push(SUM);
         seen.extend((0..8).map(number));

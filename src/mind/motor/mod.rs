@@ -3,6 +3,7 @@
 //! Each schema turns beliefs into a vector, a weight beside it says how much it counts, and the assemblage combines them. The
 //! single contributions are kept for people to see.
 
+mod combining;
 mod evaluate;
 mod head;
 mod ready;
@@ -13,21 +14,20 @@ use crate::robot::SteeringIntent;
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use evaluate::evaluate;
+use combining::Combining;
 use ready::walk_to_place;
 
 use crate::clock::Clock;
 use crate::geometry::{angle, wrap_angle};
 use crate::ids::RobotId;
 use crate::mind::perception::{Decider, Memory, Perception, perception};
-use crate::mind::schemas::combine::{weighted_sum, winner_take_all};
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
 use crate::rng::{Dice, Seed};
 use crate::robot::{KickIntent, OffPitch, RobotKind, RobotStart, RobotState};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
-use crate::strategy::{Activity, Assemblage, Combination, State, Strategies, Turn};
+use crate::strategy::{Activity, State, Strategies, Turn};
 
 pub(super) fn plugin(app: &mut App) {
     app.match_component::<Contributions>().starts(|_: &RobotStart, _| Contributions::default());
@@ -38,7 +38,7 @@ pub(super) fn plugin(app: &mut App) {
 /// What each schema of the running assemblage wants, in the team frame, and the intent that followed.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Contributions {
-    /// In the order of the assemblage's terms, unweighted.
+    /// In the order of the assemblage's terms, unweighted; of an assemblage in it, times how desirable that is.
     pub vectors: Vec<Vec2>,
     /// The combination of all, in the team frame.
     pub sum: Vec2,
@@ -88,7 +88,8 @@ fn run_assemblages(
         let memory = &mut *mind.memory;
         match state.assemblage {
             Some(index) => {
-                combine(&strategy.assemblages[index], &senses, memory, &mut dice.0, &mut contributions);
+                let mut motor = Combining { strategy, senses: &senses, memory, dice: &mut dice.0 };
+                *contributions = motor.combine(&strategy.assemblages[index]);
             }
             None => {
                 contributions.vectors.clear();
@@ -104,25 +105,6 @@ fn run_assemblages(
         *intents.kick = kick_of(state, &input.robot.kind);
         *intents.steering = intend(contributions.sum, state, &senses, memory, input.odometry.pose.heading);
     }
-}
-
-fn combine(
-    assemblage: &Assemblage,
-    senses: &Perception,
-    memory: &mut Memory,
-    dice: &mut Dice,
-    contributions: &mut Contributions,
-) {
-    contributions.vectors.clear();
-    for term in &assemblage.terms {
-        let vector = evaluate(&term.schema, senses, memory, dice).unwrap_or(Vec2::ZERO);
-        contributions.vectors.push(vector);
-    }
-    let weighted = (assemblage.terms.iter().zip(&contributions.vectors)).map(|(term, v)| (term.weight, *v));
-    contributions.sum = match assemblage.combination {
-        Combination::WeightedSum => weighted_sum(weighted),
-        Combination::WinnerTakeAll => winner_take_all(weighted),
-    };
 }
 
 /// What a state wants done to the ball, as far as a robot's kind can do it.

@@ -4,8 +4,9 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use super::*;
 use crate::mind::perception::fixture::Situation;
-use crate::strategy::Term;
 use crate::strategy::language::{Point, Schema};
+use crate::strategy::{Assemblage, Combination, Influence, Term};
+use crate::testing::{idle, strategy};
 
 /// The odometry's heading, which has nothing to do with where the robot believes it looks.
 const ODOMETRY: f32 = 1.0;
@@ -110,14 +111,15 @@ fn combined(combination: Combination, terms: &[(f32, Schema)]) -> Contributions 
     let term = |(weight, schema): &(f32, Schema)| Term {
         weight: *weight,
         name: "term".into(),
-        schema: schema.clone(),
+        influence: Influence::Schema(schema.clone()),
     };
     let assemblage = Assemblage { name: "test".into(), combination, terms: terms.iter().map(term).collect() };
-    let mut contributions = Contributions { vectors: vec![Vec2::ONE; 9], sum: Vec2::ONE };
     let mut dice = Dice::new(Seed(1), "test", None);
     let blind = Situation::at(1.0, 1.0, 90.0);
-    combine(&assemblage, &blind.senses(), &mut Memory::new(0), &mut dice, &mut contributions);
-    contributions
+    let (strategy, senses) = (idle(), blind.senses());
+    let mut memory = Memory::new(0);
+    Combining { strategy: &strategy, senses: &senses, memory: &mut memory, dice: &mut dice }
+        .combine(&assemblage)
 }
 
 fn to_ball() -> Schema {
@@ -150,9 +152,62 @@ fn the_winner_takes_all_by_its_weighted_length() {
 }
 
 #[test]
-fn nothing_of_an_earlier_assemblage_is_left_in_an_empty_one() {
-    for combination in [Combination::WeightedSum, Combination::WinnerTakeAll] {
+fn an_assemblage_without_terms_or_with_unknown_ones_wants_nothing() {
+    for combination in [Combination::WeightedSum, Combination::WinnerTakeAll, Combination::Blend] {
         assert_eq!(combined(combination, &[]), Contributions::default());
         assert_eq!(combined(combination, &[(1.0, to_ball())]).sum, Vec2::ZERO);
     }
+}
+
+/// A robot that covers the east while the ball is far and goes north to it as it comes near, and on the way a blend in a blend.
+const BLENDED: &str = r#"
+    schemas: {"east": Constant(1, 0), "north": Constant(0, 1), "hard_north": Constant(0, 2)},
+    assemblages: {
+        "cover": WeightedSum([(1.0, "east")]),
+        "fetch": WinnerTakeAll([(1.0, "north"), (1.0, "hard_north")]),
+        "play": Blend([
+            (run: "cover", desirability: Not(Distance(a: Own, b: Ball, full: 1.0, none: 2.0))),
+            (run: "fetch", desirability: Distance(a: Own, b: Ball, full: 1.0, none: 2.0)),
+        ]),
+        "whole": Blend([
+            (run: "play", weight: 3.0, desirability: If(Known(Ball))),
+            (run: "cover", desirability: Degree(1.0)),
+        ]),
+    },
+    machines: {"m": (start: "s", states: {"s": ()})},
+    roles: {"r": Plays(tag: "R", machine: "m", danger_zone: (min: (0, 0), max: (1, 1)), homebases: [(0, 0)])},
+"#;
+
+/// What the named assemblage wants of a robot with the ball so many metres to the north of it.
+fn blended(name: &str, ball: Option<f32>) -> Contributions {
+    let strategy = strategy("r", BLENDED);
+    let assemblage = strategy.assemblages.iter().find(|assemblage| assemblage.name == name);
+    let here = Situation::at(0.0, 0.0, 90.0);
+    let here = match ball {
+        Some(y) => here.ball(0.0, y),
+        None => here,
+    };
+    let (senses, mut dice) = (here.senses(), Dice::new(Seed(1), "test", None));
+    let mut memory = Memory::new(strategy.slots);
+    Combining { strategy: &strategy, senses: &senses, memory: &mut memory, dice: &mut dice }
+        .combine(assemblage.expect("the strategy has it"))
+}
+
+#[test]
+fn assemblages_are_blended_as_far_as_each_is_desirable() {
+    assert_eq!(blended("play", Some(0.5)).sum, Vec2::new(0.0, 2.0));
+    assert_eq!(blended("play", Some(2.5)).sum, Vec2::X);
+    let between = blended("play", Some(1.25));
+    assert_eq!(between.sum, Vec2::new(0.25, 1.5));
+    assert_eq!(
+        between.vectors,
+        [Vec2::new(0.25, 0.0), Vec2::new(0.0, 1.5)],
+        "each times how desirable it is"
+    );
+}
+
+#[test]
+fn a_blend_may_be_part_of_a_blend() {
+    assert_eq!(blended("whole", Some(0.5)).sum, Vec2::new(0.25, 1.5), "three parts to one");
+    assert_eq!(blended("whole", None).sum, Vec2::X, "what is not desirable does not count");
 }

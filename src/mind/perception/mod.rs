@@ -1,5 +1,6 @@
 //! The percepts and features of a strategy, worked out from one robot's beliefs. Pure: beliefs, time and memory are arguments.
 
+mod desirability;
 #[cfg(test)]
 pub(in crate::mind) mod fixture;
 mod input;

@@ -18,6 +18,14 @@ pub fn winner_take_all(terms: impl IntoIterator<Item = (f32, Vec2)>) -> Vec2 {
     })
 }
 
+/// Σ wᵢ·vᵢ / Σ wᵢ: the mean of what several behaviours want, weighted by how desirable each is (the centre of gravity, by which
+/// fuzzy behaviours are blended); zero while none is desirable.
+pub fn blend(terms: impl IntoIterator<Item = (f32, Vec2)>) -> Vec2 {
+    let add = |(sum, weights), (weight, vector): (f32, Vec2)| (sum + vector * weight, weights + weight);
+    let (sum, weights) = terms.into_iter().fold((Vec2::ZERO, 0.0), add);
+    if weights > 0.0 { sum / weights } else { Vec2::ZERO }
+}
+
 /// The sum of the terms; if that is longer than 1 it keeps its direction and takes the length of the longest
 /// single term. So many far walls do not add up to one near wall (Clay's rule for attraction and avoidance of
 /// a list).
@@ -58,6 +66,14 @@ mod tests {
         let terms = [(1.0, Vec2::new(0.9, 0.0)), (-2.0, Vec2::new(0.0, 0.5)), (0.1, Vec2::new(5.0, 0.0))];
         assert_eq!(winner_take_all(terms), Vec2::new(0.0, -1.0));
         assert_eq!(winner_take_all([]), Vec2::ZERO);
+    }
+
+    #[test]
+    fn a_blend_is_the_mean_by_weight_however_small_the_weights_are() {
+        assert_eq!(blend([(0.75, Vec2::X), (0.25, Vec2::Y)]), Vec2::new(0.75, 0.25));
+        assert_eq!(blend([(0.001, Vec2::X), (0.0, Vec2::Y)]), Vec2::X);
+        assert_eq!(blend([(0.0, Vec2::X)]), Vec2::ZERO);
+        assert_eq!(blend([]), Vec2::ZERO);
     }
 
     #[test]

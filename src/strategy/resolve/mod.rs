@@ -1,6 +1,7 @@
 //! From a strategy file to a strategy: looks every name up, checks every number, and numbers the memories of stateful
 //! operators. The first fault is reported with its place in the file.
 
+mod assemblage;
 mod machine;
 mod teamwork;
 #[cfg(test)]
@@ -11,11 +12,9 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
 
-use super::file::{AssemblageFile, RoleFile, StrategyFile};
+use super::file::{RoleFile, StrategyFile};
 use super::language::Feature;
-use super::pieces::{
-    Assemblage, Combination, HomebaseRule, Part, Play, RoleSpec, Strategy, SubRole, Term, stretched,
-};
+use super::pieces::{HomebaseRule, Part, Play, RoleSpec, Strategy, SubRole, stretched};
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Zone;
 pub(super) use teamwork::Roles;
@@ -202,27 +201,6 @@ impl Resolver<'_> {
         let mut resolved = feature.clone();
         self.feature(&mut resolved, at)?;
         Ok(resolved)
-    }
-
-    fn assemblage(&mut self, name: &str, file: &AssemblageFile, at: &Field) -> Resolved<Assemblage> {
-        let (combination, terms, at) = match file {
-            AssemblageFile::WeightedSum(terms) => (Combination::WeightedSum, terms, at.key("WeightedSum")),
-            AssemblageFile::WinnerTakeAll(terms) => {
-                (Combination::WinnerTakeAll, terms, at.key("WinnerTakeAll"))
-            }
-        };
-        let terms = (terms.iter().enumerate())
-            .map(|(i, (weight, schema))| self.term(*weight, schema, &at.index(i)))
-            .collect::<Resolved<_>>()?;
-        Ok(Assemblage { name: name.into(), combination, terms })
-    }
-
-    fn term(&mut self, weight: f32, name: &str, at: &Field) -> Resolved<Term> {
-        self.within(weight, Bound::WEIGHT, &at.index(0))?;
-        let schema = self.expand(&self.file.schemas, "schema", name, &at.index(1), |s, schema| {
-            s.schema(schema, &Field::root().key("schemas").key(name))
-        })?;
-        Ok(Term { weight, name: name.into(), schema })
     }
 
     fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Resolved<RoleSpec> {

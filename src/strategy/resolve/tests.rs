@@ -78,6 +78,38 @@ fn all_kinds_of_pieces_are_bounded() {
 }
 
 #[test]
+fn a_blend_holds_neither_itself_nor_what_is_not_there_nor_too_much() {
+    for (assemblages, expected) in [
+        (r#""a": Blend([(run: "a", desirability: Degree(1))])"#, "a.Blend[0].run: `a` is a blend of itself"),
+        (
+            r#""a": Blend([(run: "b", desirability: Degree(1))]), "b": Blend([(run: "a", desirability: Degree(1))])"#,
+            "a.Blend[0].run: `a` is a blend of itself",
+        ),
+        (
+            r#""a": Blend([(run: "c", desirability: Degree(1))])"#,
+            "a.Blend[0].run: there is no assemblage `c`; known: a",
+        ),
+        (
+            r#""a": WeightedSum([]), "b": Blend([(run: "a", desirability: Distance(a: Own, b: Ball, full: 1, none: 1))])"#,
+            "b.Blend[0].desirability.none: must not be the same as full, 1 m",
+        ),
+    ] {
+        let error = read(&with(&format!("assemblages: {{{assemblages}}}"))).unwrap_err();
+        assert!(error.contains(expected), "{error}");
+    }
+    let twice = |count: usize| {
+        let mut text = String::from(r#"assemblages: {"a0": WeightedSum([])"#);
+        for i in 1..count {
+            let part = format!(r#"(run: "a{}", desirability: Degree(1))"#, i - 1);
+            write!(text, r#", "a{i}": Blend([{part}, {part}])"#).unwrap();
+        }
+        with(&format!("{text}}}"))
+    };
+    assert!(read(&twice(8)).is_ok());
+    assert!(read(&twice(40)).unwrap_err().contains("becomes too large"));
+}
+
+#[test]
 fn values_nested_too_deeply_are_an_error_with_a_place() {
     for (open, close) in [("Not(", ")"), ("All([", "])"), ("Lasting(seconds: 1, what: ", ")")] {
         let nested = |depth| {
@@ -111,6 +143,14 @@ fn every_number_has_a_bound() {
         (r#"features: {"f": Facing(point: Ball, within: 400)}"#, "within: must be at most 360°, not 400"),
         (r#"schemas: {"s": Constant(1e30, 0)}"#, "schemas.s[0]: must be at most 1000, not 1e30"),
         (r#"schemas: {"s": Noise(period: 1e30)}"#, "period: must be at most 86400 s, not 1e30"),
+        (
+            r#"assemblages: {"a": Blend([(run: "a", weight: 1e30, desirability: Degree(1))])}"#,
+            "assemblages.a.Blend[0].weight: must be at most 1000, not 1e30",
+        ),
+        (
+            r#"assemblages: {"a": WeightedSum([]), "b": Blend([(run: "a", desirability: Degree(1.5))])}"#,
+            "assemblages.b.Blend[0].desirability: must be at most 1, not 1.5",
+        ),
         (r#"assemblages: {"a": WeightedSum([(1e30, "s")])}"#, "[0][0]: must be at most 1000, not 1e30"),
         ("pitch: (1e-30, 5)", "pitch[0]: must be at least 1 m, not 1e-30"),
         ("teamwork: (talk: (position_every: 1e30))", "position_every: must be at most 86400 s, not 1e30"),

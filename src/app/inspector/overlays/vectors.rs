@@ -18,7 +18,7 @@ pub(super) fn draw(pens: &mut Pens, robot: &SelectedRobot, from: Vec2) {
     // The sum first and broad, so that a schema that points the same way is seen upon it.
     arrow(&mut pens.broad, from, robot.ends.turn(contributions.sum), colours::SUM);
     for (term, vector) in assemblage.terms.iter().zip(&contributions.vectors) {
-        let tint = colours::schema(term.schema.kind());
+        let tint = colours::schema(term.kind());
         arrow(&mut pens.strong, from, robot.ends.turn(*vector * term.weight), tint);
     }
 }

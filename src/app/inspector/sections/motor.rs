@@ -21,6 +21,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut Panel
             let how = match assemblage.combination {
                 Combination::WeightedSum => "weighted sum",
                 Combination::WinnerTakeAll => "winner takes all",
+                Combination::Blend => "blend",
             };
             table::line(ui, "runs", format!("{}, {how}", assemblage.name));
             for (number, term) in assemblage.terms.iter().enumerate() {
@@ -73,7 +74,7 @@ fn schema(
     ends: Attacking,
     actions: &mut PanelActions,
 ) {
-    let kind = term.schema.kind();
+    let kind = term.kind();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let fixed = ICON + 2.0 * FIGURE + SLIDER + VALUE + RESET + 3.0 * 4.0;
