@@ -5,6 +5,7 @@
 use std::process::ExitCode;
 
 use touchline::data::{AssetFolder, DataError};
+use touchline::game::record::CROWD;
 use touchline::game::{Choice, Match, MatchPlan};
 
 fn main() -> ExitCode {
@@ -30,7 +31,7 @@ fn play(home: Option<String>, away: Option<String>) -> Result<(), DataError> {
         }
         let ([home, away], record) = (game.state().score, game.record());
         let possession = record.possession_shares().map(|share| 100.0 * share);
-        let crowding = record.crowding.map(|seconds| 100.0 * seconds / record.played);
+        let crowding = record.crowding.seconds(CROWD).map(|seconds| 100.0 * seconds / record.played);
         let driven = touchline::ids::Team::BOTH.map(|team| record.driven_by(team));
         println!(
             "{seed:4}  {home} : {away}  {:3.0} : {:2.0} %  {:3.0} : {:2.0} %  {:3.0} : {:3.0} m",

@@ -1,7 +1,7 @@
 //! Ball booking in whole matches of four-legged robots: what it is worth against the crowd around the ball, and what its four
 //! requirements come to while robots see badly and the radio loses messages.
 
-use touchline::game::record::Record;
+use touchline::game::record::{AGGLOMERATION, Record};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::Team;
 use touchline::world::referee::Phase;
@@ -30,7 +30,7 @@ fn played(plan: &MatchPlan) -> Match {
 
 /// Share of play with two or more robots of a team within half a metre of the ball.
 fn agglomeration(record: &Record, team: Team) -> f64 {
-    record.agglomeration[team.index()] / record.played
+    record.crowding.seconds(AGGLOMERATION)[team.index()] / record.played
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bevy::prelude::*;
 use touchline::comms::radio::{InFlight, Loss, RadioRecord, TransmissionState};
-use touchline::game::record::Record;
+use touchline::game::record::{CROWD, Record};
 use touchline::game::requests::{Request, Requests, RobotChange};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
@@ -168,7 +168,7 @@ fn the_hammerheads_beat_the_ball_chasers_and_crowd_the_ball_less() {
         let record: &Record = game.record();
         for (team, side) in sides.into_iter().enumerate() {
             goals[team] += game.state().score[side];
-            crowd[team] += record.crowding[side] / record.played / 40.0;
+            crowd[team] += record.crowding.seconds(CROWD)[side] / record.played / 40.0;
         }
     }
     println!(

@@ -7,8 +7,10 @@ mod interrupt;
 mod kinds;
 mod options;
 mod play;
+mod progress;
 mod robot;
 mod run;
+mod run_report;
 mod whole_file;
 
 use std::io::{self, Write};

@@ -1,10 +1,13 @@
-//! The four requirements on ball booking (TeamChaos, section 4), watched in a match: for how long each was not met.
+//! The four requirements on ball booking (TeamChaos, section 4) as the robots themselves have it: for how long each was not met by
+//! what their booking machines believe. What they do is in [`super::pursuit`].
 
 use serde::Serialize;
 
+use super::pursuit::PING_PONG;
+use super::span::Span;
 use crate::protocol::b3p::Distance;
 
-/// How well a team that books the ball has met the requirements so far. Times are seconds of play.
+/// How well a team that books the ball has met the requirements so far, in its own eyes. Times are seconds of play.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct BookingFigures {
     /// Requirement 1: a robot that knows the ball was nearer than the one that goes, by more than the threshold.
@@ -19,32 +22,6 @@ pub struct BookingFigures {
     pub takeovers: u64,
     #[serde(skip)]
     last: [Option<(u8, f64)>; 2],
-}
-
-/// How long something lasted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Span {
-    /// In all, s.
-    pub total: f64,
-    /// At a stretch, s.
-    pub longest: f64,
-    #[serde(skip)]
-    now: f64,
-}
-
-/// Two takeovers within this time, back to where the ball was, are an alternation, s.
-pub const PING_PONG: f64 = 3.0;
-
-impl Span {
-    fn update(&mut self, holds: bool, dt: f64) {
-        if holds {
-            self.total += dt;
-            self.now += dt;
-            self.longest = self.longest.max(self.now);
-        } else {
-            self.now = 0.0;
-        }
-    }
 }
 
 /// A robot in play that knows where the ball is.
@@ -112,15 +89,6 @@ mod tests {
         assert_eq!(total(figures.farther_goes), 1.0);
         assert_eq!(total(figures.nobody_goes), 1.0, "a ball that nobody knows is nobody's");
         assert_eq!(total(figures.several_go), 1.0);
-    }
-
-    #[test]
-    fn the_longest_stretch_is_kept() {
-        let mut span = Span::default();
-        for holds in [true, true, false, true, true, true, false, true] {
-            span.update(holds, 0.5);
-        }
-        assert_eq!((span.total, span.longest), (3.0, 1.5));
     }
 
     #[test]

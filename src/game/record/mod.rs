@@ -2,76 +2,98 @@
 //! clock moves on at its end.
 
 mod bookings;
+mod contacts;
+mod crowding;
+mod digest;
+mod holds;
+mod kicks;
+mod loose_balls;
 mod overlap;
+mod play_tick;
+mod pursuit;
+mod removals;
+mod span;
 #[cfg(test)]
 mod tests;
 
-use std::hash::BuildHasher;
-
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
-use serde::Serialize;
 use smallvec::SmallVec;
-use xxhash_rust::xxh3::{Xxh3DefaultBuilder, xxh3_64_with_seed};
 
 use bookings::BallSeeker;
-pub use bookings::{BookingFigures, PING_PONG, Span};
+pub use bookings::BookingFigures;
+pub use contacts::{APART, ContactTotal, RobotContacts};
+pub use crowding::{AGGLOMERATION, CROWD, Crowding, RADII};
+pub use holds::{BACK_WITHIN, HoldFigures};
+pub use kicks::{KickFigures, STRUCK};
+pub use loose_balls::{LOOSE_AFTER, LooseBalls, WON_AFTER};
 pub use overlap::{BallOverlap, TOLERANCE};
+use play_tick::{PlayTick, PlayView};
+pub use pursuit::{FARTHER, PING_PONG, Pursuit};
+pub use removals::Removals;
+pub use span::Span;
 
 use crate::clock::Clock;
-use crate::comms::radio::RadioRecord;
-use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
-use crate::mind::teamwork::{Booking, Swapping};
+use crate::mind::teamwork::Booking;
 use crate::mind::world_model::WorldModel;
 use crate::pitch::BallKind;
 use crate::protocol::b3p::Distance;
 use crate::rng::Seed;
-use crate::robot::{OffPitch, Orders, Robot, RobotState, Trailer};
+use crate::robot::{Orders, Robot, RobotState};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
+use crate::strategy::Strategies;
 use crate::strategy::teamwork::BallBooking;
-use crate::strategy::{Activity, Role, Strategies};
 use crate::world::ball::Ball;
 use crate::world::physics::Overlaps;
-use crate::world::referee::{MatchState, Phase};
+use crate::world::referee::{Calls, Decision, MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
-    let systems = (digest, measure, watch_bookings, watch_overlaps, move_clock).chain();
+    let systems = (digest::digest, measure, watch_bookings, watch_overlaps, move_clock).chain();
     app.match_resource::<Record>();
     app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
 
-/// Figures about the match so far.
-#[derive(Resource, Clone, Debug, PartialEq, Serialize)]
+/// Figures about the match so far. Where there are two, home is first. Only time of play counts.
+#[derive(Resource, Clone, Debug, PartialEq)]
 pub struct Record {
     /// Equal digests mean equal matches: all poses, roles, activities, role swaps and the score at all ticks, and how much was
     /// said.
     pub digest: u64,
-    /// Seconds of play in which each team was the last one near the ball, home first.
+    /// Seconds of play in which each team was the last one near the ball.
     pub possession: [f64; 2],
-    /// Seconds with two or more robots of a team within [`CROWD`] of the ball, home first.
-    pub crowding: [f64; 2],
-    /// Seconds with two or more robots of a team within [`AGGLOMERATION`] of the ball, home first.
-    pub agglomeration: [f64; 2],
-    /// How well each team's ball booking has worked, home first.
+    /// How much the teams crowded the ball.
+    pub crowding: Crowding,
+    /// Who drove at the ball, told from what robots do.
+    pub pursuit: [Pursuit; 2],
+    /// How well each team's ball booking has worked, told from what its robots believe.
     pub bookings: [BookingFigures; 2],
+    /// Who touched whom.
+    pub contacts: RobotContacts,
+    /// Balls that nobody touched, and who won them.
+    pub loose_balls: LooseBalls,
+    /// The kicks of each team.
+    pub kicks: [KickFigures; 2],
+    /// Whom the referee took off, and why.
+    pub removals: Removals,
+    /// How long robots kept their roles, by index.
+    pub roles: [HoldFigures<usize>; 2],
+    /// How long robots kept the states of their machines, by indices of role and state.
+    pub states: [HoldFigures<(usize, usize)>; 2],
     /// How deep the ball has sunk into robots and walls.
     pub overlap: BallOverlap,
     /// Seconds of play.
     pub played: f64,
     /// Metres driven by each robot, by robot in order.
     pub driven: Vec<(RobotId, f64)>,
-    #[serde(skip)]
     last_near: Option<Team>,
+    /// The velocity of the ball one tick ago, m/s.
+    ball_before: Vec2,
 }
 
 /// A robot nearer to the ball than this has it, m.
 const POSSESSION: f32 = 0.5;
-/// Two team mates nearer to the ball than this crowd it, m.
-pub const CROWD: f32 = 1.0;
-/// Two small robots nearer to the ball than this are an agglomeration (TeamChaos, section 5), m.
-pub const AGGLOMERATION: f32 = 0.5;
 
 impl Record {
     /// An empty record of a match between these robots, in order.
@@ -79,13 +101,69 @@ impl Record {
         Record {
             digest: seed.0,
             possession: [0.0; 2],
-            crowding: [0.0; 2],
-            agglomeration: [0.0; 2],
+            crowding: Crowding::default(),
+            pursuit: Default::default(),
             bookings: [BookingFigures::default(); 2],
+            contacts: RobotContacts::default(),
+            loose_balls: LooseBalls::default(),
+            kicks: Default::default(),
+            removals: Removals::default(),
+            roles: Default::default(),
+            states: Default::default(),
             overlap: BallOverlap::default(),
             played: 0.0,
             driven: robots.into_iter().map(|robot| (robot, 0.0)).collect(),
             last_near: None,
+            ball_before: Vec2::ZERO,
+        }
+    }
+
+    fn update(&mut self, tick: &PlayTick) {
+        self.played += tick.dt;
+        self.note_possession(tick);
+        self.note_ways(tick);
+        self.crowding.update(tick);
+        self.contacts.update(&tick.touching, tick.now, tick.dt);
+        self.loose_balls.update(tick);
+        for team in Team::BOTH {
+            let i = team.index();
+            self.pursuit[i].update(team, tick);
+            self.kicks[i].update(team, tick, self.ball_before);
+            let playing = || tick.of(team).filter(|player| player.plays);
+            self.roles[i].update(playing().map(|it| (it.id.number, it.role)), tick.now, tick.dt);
+            self.states[i].update(playing().map(|it| (it.id.number, it.state)), tick.now, tick.dt);
+        }
+        self.ball_before = tick.ball_velocity;
+    }
+
+    /// Play is interrupted.
+    fn interrupt(&mut self) {
+        self.contacts.interrupt();
+        self.loose_balls.interrupt();
+        self.pursuit.iter_mut().for_each(Pursuit::interrupt);
+        self.roles.iter_mut().for_each(HoldFigures::interrupt);
+        self.states.iter_mut().for_each(HoldFigures::interrupt);
+    }
+
+    fn note_possession(&mut self, tick: &PlayTick) {
+        let mut nearest: Option<(f32, RobotId)> = None;
+        for player in &tick.players {
+            let distance = player.position.distance(tick.ball);
+            if distance < POSSESSION && nearest.is_none_or(|best| (distance, player.id) < best) {
+                nearest = Some((distance, player.id));
+            }
+        }
+        self.last_near = nearest.map(|(_, id)| id.team).or(self.last_near);
+        if let Some(team) = self.last_near {
+            self.possession[team.index()] += tick.dt;
+        }
+    }
+
+    fn note_ways(&mut self, tick: &PlayTick) {
+        for player in &tick.players {
+            if let Ok(index) = self.driven.binary_search_by_key(&player.id, |(robot, _)| *robot) {
+                self.driven[index].1 += f64::from(player.velocity.length()) * tick.dt;
+            }
         }
     }
 
@@ -105,87 +183,23 @@ fn shares([home, away]: [f64; 2]) -> [f64; 2] {
     if total > 0.0 { [home / total, away / total] } else { [0.5, 0.5] }
 }
 
-type Digested<'a> = (
-    &'a Pose,
-    Option<&'a RobotId>,
-    Option<&'a Trailer>,
-    Option<&'a Role>,
-    Option<&'a Activity>,
-    Option<&'a Swapping>,
-);
-
-/// Folds the state of the world into the digest, in the order of robots, trailers and ball.
-fn digest(
-    mut record: ResMut<Record>,
-    state: Res<MatchState>,
-    radio: Res<RadioRecord>,
-    bodies: Query<Digested>,
-) {
-    let mut sorted: SmallVec<[(u32, [u32; 6]); 24]> = bodies
-        .iter()
-        .map(|(pose, robot, trailer, role, activity, swapping)| {
-            let key = |id: &RobotId| (id.team.index() as u32) << 8 | u32::from(id.number);
-            let order = match (robot, trailer) {
-                (Some(id), _) => key(id),
-                (None, Some(trailer)) => 1 << 16 | key(&trailer.of),
-                (None, None) => 1 << 17,
-            };
-            let place = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
-            let role = role.map_or(0, |role| role.0 as u32);
-            let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
-            let swap = swapping.map_or(0, |swapping| Xxh3DefaultBuilder.hash_one(&swapping.machine) as u32);
-            (order, [place[0], place[1], place[2], role, activity, swap])
-        })
-        .collect();
-    sorted.sort_unstable_by_key(|(order, _)| *order);
-    let mut bytes: SmallVec<[u8; 512]> = SmallVec::new();
-    for (_, words) in &sorted {
-        words.iter().for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
-    }
-    bytes.extend_from_slice(&state.score[0].to_le_bytes());
-    bytes.extend_from_slice(&state.score[1].to_le_bytes());
-    bytes.push(state.phase as u8);
-    bytes.extend_from_slice(&radio.transmitted().to_le_bytes());
-    record.digest = xxh3_64_with_seed(&bytes, record.digest);
-}
-
 fn measure(
-    clock: Res<Clock>,
-    state: Res<MatchState>,
+    (clock, state, calls): (Res<Clock>, Res<MatchState>, Res<Calls>),
     mut record: ResMut<Record>,
-    ball: Single<&Pose, With<Ball>>,
-    robots: Query<(&RobotId, &Pose, &Twist), Without<OffPitch>>,
+    view: PlayView,
 ) {
+    record.removals.update(&calls.0);
     if state.phase != Phase::Playing {
-        return;
+        return record.interrupt();
     }
-    let dt = f64::from(clock.dt);
-    record.played += dt;
-    let (mut near, mut at_ball) = ([0; 2], [0; 2]);
-    let mut nearest: Option<(f32, RobotId)> = None;
-    for (&id, pose, twist) in &robots {
-        let distance = pose.position.distance(ball.position);
-        near[id.team.index()] += usize::from(distance < CROWD);
-        at_ball[id.team.index()] += usize::from(distance < AGGLOMERATION);
-        if distance < POSSESSION && nearest.is_none_or(|best| (distance, id) < best) {
-            nearest = Some((distance, id));
-        }
-        if let Ok(index) = record.driven.binary_search_by_key(&id, |(robot, _)| *robot) {
-            record.driven[index].1 += f64::from(twist.linear.length()) * dt;
-        }
-    }
-    record.last_near = nearest.map(|(_, id)| id.team).or(record.last_near);
-    if let Some(team) = record.last_near {
-        record.possession[team.index()] += dt;
-    }
-    for team in Team::BOTH {
-        if near[team.index()] >= 2 {
-            record.crowding[team.index()] += dt;
-        }
-        if at_ball[team.index()] >= 2 {
-            record.agglomeration[team.index()] += dt;
-        }
-    }
+    let tick = PlayTick {
+        tick: clock.tick,
+        now: record.played,
+        dt: f64::from(clock.dt),
+        ball_is_put: calls.0.iter().any(|call| matches!(call, Decision::BallPlaced { .. })),
+        ..view.tick()
+    };
+    record.update(&tick);
 }
 
 type Bidding<'a> = (&'a RobotId, &'a Robot, &'a WorldModel, &'a Booking, &'a Orders);

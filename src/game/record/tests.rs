@@ -1,8 +1,12 @@
 //! What is recorded of a world that is arranged by hand.
 
 use super::*;
+use crate::comms::radio::RadioRecord;
+use crate::geometry::{Pose, Twist};
 use crate::ids::Team::{Away, Home};
-use crate::strategy::Strategies;
+use crate::robot::handling::Handling;
+use crate::robot::{DriveCommand, OffPitch, Trailer, WheelSpeeds};
+use crate::strategy::{Activity, Role, Strategies};
 use crate::testing::BALL;
 use crate::world::referee::RuleBook;
 
@@ -26,7 +30,8 @@ fn app() -> App {
     let strategy = std::sync::Arc::new(crate::testing::idle());
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(BALL);
-    app.world_mut().spawn((Ball, Pose::default()));
+    app.init_resource::<Calls>();
+    app.world_mut().spawn((Ball, Pose::default(), Twist::default()));
     robot(&mut app, Home, 0, 3.0);
     robot(&mut app, Away, 0, -3.0);
     app
@@ -38,7 +43,15 @@ fn robot(app: &mut App, team: Team, number: u8, x: f32) -> Entity {
     let activity = Activity::new(&crate::testing::idle(), 0, 0);
     let trailer = Trailer { of: id, middle: Vec2::ZERO, radius: 0.3 };
     app.world_mut().spawn((trailer, Pose::new(x, 1.0, 0.0)));
-    app.world_mut().spawn((id, Pose::new(x, 0.0, 0.0), Twist::default(), Role(0), activity)).id()
+    let clock = Clock::new(60.0);
+    let (kind, sensing) = (crate::testing::cye().into(), crate::testing::perfect_sensing().into());
+    let body = (
+        Robot::new(kind, sensing, &clock),
+        DriveCommand::Wheels(WheelSpeeds::default()),
+        Handling::new(Seed(1), id),
+        Orders { state: RobotState::Playing, place: None },
+    );
+    app.world_mut().spawn((id, Pose::new(x, 0.0, 0.0), Twist::default(), Role(0), activity, body)).id()
 }
 
 /// The record after so many more ticks.
@@ -94,14 +107,14 @@ fn a_ball_is_crowded_by_two_of_one_team_and_not_by_one_of_each() {
     let (home, away) = (of_robot(&mut app, Home), of_robot(&mut app, Away));
     put(&mut app, home, 0.9);
     put(&mut app, away, -0.9);
-    assert_seconds(after(&mut app, 60).crowding, [0.0, 0.0]);
+    assert_seconds(after(&mut app, 60).crowding.seconds(CROWD), [0.0, 0.0]);
     let second = robot(&mut app, Away, 1, 0.99);
-    assert_seconds(after(&mut app, 60).crowding, [0.0, 1.0]);
+    assert_seconds(after(&mut app, 60).crowding.seconds(CROWD), [0.0, 1.0]);
     robot(&mut app, Away, 2, 0.5);
-    assert_seconds(after(&mut app, 60).crowding, [0.0, 2.0]);
+    assert_seconds(after(&mut app, 60).crowding.seconds(CROWD), [0.0, 2.0]);
     put(&mut app, away, -1.0);
     put(&mut app, second, 1.01);
-    assert_seconds(after(&mut app, 60).crowding, [0.0, 2.0]);
+    assert_seconds(after(&mut app, 60).crowding.seconds(CROWD), [0.0, 2.0]);
 }
 
 #[test]
@@ -113,7 +126,7 @@ fn a_removed_robot_neither_has_nor_crowds_the_ball_nor_drives() {
     robot(&mut app, Home, 1, 0.9);
     let record = after(&mut app, 60);
     assert_seconds(record.possession, [0.0, 0.0]);
-    assert_seconds(record.crowding, [0.0, 0.0]);
+    assert_seconds(record.crowding.seconds(CROWD), [0.0, 0.0]);
     assert_eq!(record.driven_by(Home), 0.0);
 }
 
@@ -138,13 +151,16 @@ fn only_play_is_measured_and_every_tick_is_counted() {
     app.world_mut().entity_mut(home).insert(Twist { linear: Vec2::X, angular: 0.0 });
     let before = after(&mut app, 60);
     assert!((before.played - 1.0).abs() < 1e-4, "{}", before.played);
+    // The whistle ends stretches of time and what is undecided about a loose ball.
+    set_phase(&mut app, Phase::Set);
+    let before = after(&mut app, 1);
     for phase in [Phase::Initial, Phase::Ready, Phase::Set, Phase::Finished] {
         set_phase(&mut app, phase);
         let record = after(&mut app, 10);
         assert_ne!(record.digest, before.digest);
         assert_eq!(Record { digest: before.digest, ..record }, before, "{phase}");
     }
-    assert_eq!(app.world().resource::<Clock>().tick, 100);
+    assert_eq!(app.world().resource::<Clock>().tick, 101);
 }
 
 /// The digest of one tick after a change.

@@ -6,6 +6,7 @@
 use std::fmt;
 
 use bevy::prelude::Vec2;
+use serde::Serialize;
 
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
@@ -26,7 +27,8 @@ pub enum PlacementReason {
 }
 
 /// Why the referee takes a robot off the field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum RemovalReason {
     /// It stayed too long in its own penalty area together with a teammate.
     SecondDefender,
