@@ -149,6 +149,25 @@ pub enum Condition {
         #[serde(default)]
         at_most: Option<u32>,
     },
+    /// Two robots touch each other, with body or trailer.
+    Touching(RobotId, RobotId),
+    /// How often robots of the team have touched each other so far; touches of a pair less than a quarter of a second apart are
+    /// one.
+    MateContacts {
+        team: Team,
+        #[serde(default)]
+        at_least: Option<u32>,
+        #[serde(default)]
+        at_most: Option<u32>,
+    },
+    /// For how many seconds robots of the team have touched each other so far, all pairs together.
+    MateContactTime {
+        team: Team,
+        #[serde(default)]
+        below: Option<f32>,
+        #[serde(default)]
+        above: Option<f32>,
+    },
     /// No two robots of the team that are switched on have the same role.
     RolesDistinct(Team),
     /// The roles of the robots named by their numbers.

@@ -4,6 +4,7 @@
 use super::condition::{Condition, Thing};
 use super::scene::{RobotScene, Scene};
 use super::words::{list, metres_of};
+use crate::game::record::ContactTotal;
 use crate::ids::{RobotId, Team};
 
 /// What a condition finds.
@@ -97,6 +98,24 @@ pub(super) fn find<'s>(condition: &'s Condition, scene: &'s Scene) -> Finding<'s
             let goals = scene.score[team.index()];
             let words = move || format!("{team} had scored {goals}");
             finding(is_between(goals, *at_least, *at_most), words)
+        }
+        Condition::Touching(a, b) => {
+            finding(scene.contacts.touch(*a, *b), move || match (scene.robot(*a), scene.robot(*b)) {
+                (Some(one), Some(other)) => {
+                    let metres = one.pose.position.distance(other.pose.position);
+                    let touched = if scene.contacts.touch(*a, *b) { "touched" } else { "did not touch" };
+                    format!("{a} {touched} {b}, {metres:.2} m away")
+                }
+                _ => format!("{a} or {b} did not take part"),
+            })
+        }
+        Condition::MateContacts { team, at_least, at_most } => {
+            let total = scene.contacts.of_mates(*team);
+            finding(is_between(total.number, *at_least, *at_most), move || contacts(*team, total))
+        }
+        Condition::MateContactTime { team, below, above } => {
+            let total = scene.contacts.of_mates(*team);
+            finding(within(total.seconds as f32, *below, *above), move || contacts(*team, total))
         }
         Condition::RolesDistinct(team) => {
             let same = same_role(scene, *team);
@@ -195,6 +214,12 @@ fn eyes<'s>(
 fn locked(scene: &Scene, team: Team) -> impl Iterator<Item = (RobotId, u8)> {
     let team = scene.robots.iter().filter(move |it| it.id.team == team);
     team.filter_map(|it| Some((it.id, it.locked_by?)))
+}
+
+fn contacts(team: Team, total: ContactTotal) -> String {
+    let ContactTotal { number, seconds } = total;
+    let times = if number == 1 { "once" } else { &format!("{number} times") };
+    format!("robots of {team} had touched each other {times}, for {seconds:.2} s")
 }
 
 fn distance(scene: &Scene, from: Thing, to: Thing) -> Option<f32> {

@@ -15,6 +15,7 @@ use super::scene::{RobotScene, Scene};
 use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
 use crate::game::Match;
+use crate::game::record::Record;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
 use crate::mind::teamwork::{Booking, BookingStatus, Swapping, TeamModel};
@@ -107,6 +108,7 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
         robots: scenes,
         score: world.resource::<MatchState>().score,
         radio: world.resource::<RadioRecord>(),
+        contacts: &world.resource::<Record>().contacts,
     });
 }
 

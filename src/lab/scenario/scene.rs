@@ -4,6 +4,7 @@ use bevy::prelude::Vec2;
 
 use super::condition::{Area, Thing};
 use crate::comms::radio::RadioRecord;
+use crate::game::record::RobotContacts;
 use crate::geometry::{Pose, Zone};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -28,6 +29,8 @@ pub struct Scene<'a> {
     pub score: [u32; 2],
     /// What crossed the radio.
     pub radio: &'a RadioRecord,
+    /// Who touches whom, and has touched.
+    pub contacts: &'a RobotContacts,
 }
 
 /// A robot in a [`Scene`].

@@ -9,6 +9,7 @@ use super::file::ScenarioFile;
 use super::scene::{RobotScene, Scene};
 use crate::comms::radio::RadioRecord;
 use crate::data::{DataError, Source};
+use crate::game::record::RobotContacts;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -81,6 +82,7 @@ pub(super) struct Stage {
     pub robots: Vec<RobotScene<'static>>,
     pub score: [u32; 2],
     pub radio: RadioRecord,
+    pub contacts: RobotContacts,
 }
 
 impl Default for Stage {
@@ -102,8 +104,14 @@ impl Default for Stage {
             locked_by: None,
             configuration: None,
         });
-        let radio = RadioRecord::default();
-        Stage { pitch: testing::pitch(), ball: Vec2::ZERO, robots: robots.collect(), score: [0; 2], radio }
+        Stage {
+            pitch: testing::pitch(),
+            ball: Vec2::ZERO,
+            robots: robots.collect(),
+            score: [0; 2],
+            radio: RadioRecord::default(),
+            contacts: RobotContacts::default(),
+        }
     }
 }
 
@@ -118,6 +126,7 @@ impl Stage {
             robots: self.robots.clone(),
             score: self.score,
             radio: &self.radio,
+            contacts: &self.contacts,
         }
     }
 }

@@ -121,6 +121,15 @@ impl Display for Condition {
             Condition::Goals { team, at_least, at_most } => {
                 write!(f, "{team} has scored {}", limits("at least", *at_least, "at most", *at_most, ""))
             }
+            Condition::Touching(a, b) => write!(f, "{a} touches {b}"),
+            Condition::MateContacts { team, at_least, at_most } => {
+                let limits = limits("at least", *at_least, "at most", *at_most, "");
+                write!(f, "robots of {team} have touched each other {limits} times")
+            }
+            Condition::MateContactTime { team, below, above } => {
+                let limits = limits("more than", *above, "less than", *below, " s");
+                write!(f, "robots of {team} have touched each other for {limits}")
+            }
             Condition::RolesDistinct(team) => write!(f, "no two robots of {team} have the same role"),
             Condition::RolesAre(team, roles) => f.write_str(&list(
                 roles.iter().map(|(number, role)| format!("{team} {number} is {role}")),
@@ -282,6 +291,15 @@ mod tests {
             ),
             (r#"Holder(robot: "home 1", seen_by: "home 2")"#, "home 1 holds the ball in the eyes of home 2"),
             (r#"RolesAre(Home, {0: "g", 1: "h"})"#, "home 0 is g and home 1 is h"),
+            (r#"Touching("home 1", "away 2")"#, "home 1 touches away 2"),
+            (
+                "MateContacts(team: Home, at_most: 2)",
+                "robots of home have touched each other at most 2 times",
+            ),
+            (
+                "MateContactTime(team: Home, above: 0.5, below: 2)",
+                "robots of home have touched each other for more than 0.5 s and less than 2 s",
+            ),
         ] {
             assert_eq!(words::<Condition>(ron), expected);
         }

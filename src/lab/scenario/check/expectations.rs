@@ -5,7 +5,7 @@ use bevy::prelude::Vec2;
 use super::{Checked, Checker};
 use crate::data::{Bound, Field, no_such};
 use crate::geometry::Zone;
-use crate::ids::RobotId;
+use crate::ids::{RobotId, Team};
 use crate::lab::scenario::condition::{Area, Condition, Expectation, Packets, Thing};
 
 impl Checker<'_> {
@@ -81,6 +81,17 @@ impl Checker<'_> {
             Condition::Sent(packets) => self.packets(packets, &at.key("Sent")),
             Condition::Delivered(packets) => self.packets(packets, &at.key("Delivered")),
             Condition::Goals { at_least, at_most, .. } => self.counts(*at_least, *at_most, &at.key("Goals")),
+            Condition::Touching(a, b) => self.two_robots(*a, *b, &at.key("Touching")),
+            Condition::MateContacts { team, at_least, at_most } => {
+                let at = at.key("MateContacts");
+                self.two_mates(*team, &at)?;
+                self.counts(*at_least, *at_most, &at)
+            }
+            Condition::MateContactTime { team, below, above } => {
+                let at = at.key("MateContactTime");
+                self.two_mates(*team, &at)?;
+                self.limits(*below, *above, Bound::SECONDS, &at)
+            }
             Condition::RolesDistinct(team)
             | Condition::ConfigurationsAgree(team)
             | Condition::Unlocked(team) => {
@@ -153,6 +164,21 @@ impl Checker<'_> {
             Some(other) if other.team != robot.team => {
                 self.fault(&at.key(key), format!("{other} is no team mate of {robot}"))
             }
+            _ => Ok(()),
+        }
+    }
+
+    fn two_robots(&self, a: RobotId, b: RobotId, at: &Field) -> Checked<()> {
+        self.robot(a, &at.index(0))?;
+        self.robot(b, &at.index(1))?;
+        if a == b { self.fault(at, format!("{a} does not touch itself")) } else { Ok(()) }
+    }
+
+    /// A team has two robots at least, so that they can touch each other.
+    fn two_mates(&self, team: Team, at: &Field) -> Checked<()> {
+        match self.robots.iter().filter(|robot| robot.team == team).count() {
+            0 => self.fault(&at.key("team"), format!("{team} does not take part")),
+            1 => self.fault(&at.key("team"), format!("{team} has one robot, which has no team mate")),
             _ => Ok(()),
         }
     }

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::comms::radio::{Delivery, Packet};
 use crate::comms::tcm::DataType;
+use crate::game::record::RobotContacts;
 use crate::ids::{RobotId, Team};
 use crate::lab::scenario::stage::{HZ, Stage, expecting};
 
@@ -47,6 +48,15 @@ fn holds(condition: &str, set: impl Fn(&mut Stage)) -> (bool, String) {
 }
 
 fn no_change(_: u64, _: &mut Stage) {}
+
+/// Home 1 and home 2 have touched twice, for 0.75 s in all, and do so still.
+fn touched() -> RobotContacts {
+    let mut contacts = RobotContacts::default();
+    let pair = [1, 2].map(|number| RobotId::new(Team::Home, number));
+    contacts.update(&[pair], 0.0, 0.25);
+    contacts.update(&[pair], 1.0, 0.5);
+    contacts
+}
 
 #[test]
 fn eventually_is_met_at_once_when_it_holds() {
@@ -252,6 +262,27 @@ fn every_condition_can_hold_and_fail_and_says_what_was_seen() {
             "away had scored 2",
             |it| it.score = [0, 1],
             "away had scored 1",
+        ),
+        (
+            r#"Touching("home 2", "home 1")"#,
+            |_| {},
+            "home 2 did not touch home 1, 1.00 m away",
+            |it| it.contacts = touched(),
+            "home 2 touched home 1, 1.00 m away",
+        ),
+        (
+            "MateContacts(team: Home, at_least: 2)",
+            |_| {},
+            "robots of home had touched each other 0 times, for 0.00 s",
+            |it| it.contacts = touched(),
+            "robots of home had touched each other 2 times, for 0.75 s",
+        ),
+        (
+            "MateContactTime(team: Home, below: 0.5)",
+            |it| it.contacts = touched(),
+            "robots of home had touched each other 2 times, for 0.75 s",
+            |_| {},
+            "robots of home had touched each other 0 times, for 0.00 s",
         ),
         (
             r#"RolesAre(Home, {2: "floater", 3: "halfback"})"#,
