@@ -8,6 +8,7 @@ mod command_line;
 mod corpus;
 mod docs;
 mod fairness;
+mod duel;
 mod first_messages;
 mod network;
 mod numbers;

@@ -1,5 +1,6 @@
 //! The program as a person or a script calls it.
 
+mod duel;
 #[cfg(unix)]
 mod interrupt;
 mod options;

@@ -28,6 +28,7 @@ fn an_option_without_effect_is_refused_and_named() {
         (&["run", "--patience", "3"], "--patience"),
         (&["check", "--seed", "1"], "--seed"),
         (&["check", "--json"], "--json"),
+        (&["duel", "--pilot", "home:1"], "--pilot"),
     ];
     for (call, option) in calls {
         let output = touchline(call);

@@ -2,6 +2,7 @@
 
 mod box_report;
 mod check;
+mod duel;
 mod ending;
 mod interrupt;
 mod kinds;
@@ -41,6 +42,9 @@ enum CliCommand {
     /// Play a match headless, as fast as it goes, and print the result.
     #[command(after_help = EXIT_CODES)]
     Run(run::RunCommand),
+    /// Let a few robots of two strategies fight for a free ball, many times, and print the share that each side wins.
+    #[command(after_help = EXIT_CODES)]
+    Duel(duel::DuelCommand),
     /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
     #[command(after_help = EXIT_CODES)]
     Robot(robot::RobotCommand),
@@ -70,6 +74,7 @@ impl Cli {
             None => play::PlayCommand::default().run(&assets, &mut out),
             Some(CliCommand::Play(play)) => play.run(&assets, &mut out),
             Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
+            Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),
             Some(CliCommand::Check(check)) => check.run(&assets, &mut out),
         }?;

@@ -1,0 +1,73 @@
+//! `touchline duel`: many short fights for a free ball, and the share that each side wins.
+
+use std::io::Write;
+
+use clap::Args;
+
+use super::ending::{CommandError, Ending, print_json};
+use super::interrupt::Interrupt;
+use super::options::SeedOption;
+use super::progress::progress_bar;
+use crate::data::AssetFolder;
+use crate::lab::duel::{DuelChoice, DuelPlan, DuelTeams};
+
+#[derive(Args, Debug)]
+pub(super) struct DuelCommand {
+    /// The match whose pitch, ball, robots and radio the duel has: a name among the assets or a path.
+    #[arg(long = "match", value_name = "MATCH")]
+    file: Option<String>,
+    /// The first side's strategy: a name among the assets or a path; the match's home team's if not given.
+    #[arg(long, value_name = "STRATEGY")]
+    home: Option<String>,
+    /// The second side's strategy; the match's away team's if not given.
+    #[arg(long, value_name = "STRATEGY")]
+    away: Option<String>,
+    /// How many robots each side has, such as 2v1: the players with the highest numbers.
+    #[arg(long, value_name = "NvM", default_value = "1v1")]
+    robots: DuelTeams,
+    /// How many trials to play; even, since each start is played with the strategies on either side.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    trials: u32,
+    /// After how long a trial is undecided.
+    #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = seconds)]
+    seconds: f64,
+    #[command(flatten)]
+    seed: SeedOption,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Reads how long a trial may take.
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| (1.0..=600.0).contains(seconds));
+    seconds.ok_or_else(|| "must be a number of seconds, from 1 to 600".into())
+}
+
+impl DuelCommand {
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        let choice = DuelChoice {
+            file: self.file.clone(),
+            home: self.home.clone(),
+            away: self.away.clone(),
+            teams: self.robots,
+            trials: self.trials,
+            seed: self.seed.of_match(),
+            seconds: self.seconds,
+        };
+        let plan = DuelPlan::read(assets, &choice)?;
+        let interrupt = Interrupt::listen();
+        let bar = progress_bar(plan.trials().into(), "{bar:40} {pos}/{len} trials, {eta} left");
+        let report = plan.run(|over| {
+            bar.set_position(over.into());
+            !interrupt.is_asked()
+        });
+        bar.finish_and_clear();
+        if self.json {
+            print_json(&report, out)?;
+        } else {
+            writeln!(out, "{report}")?;
+        }
+        Ok(if report.interrupted { Ending::Interrupted } else { Ending::Done })
+    }
+}
