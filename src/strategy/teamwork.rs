@@ -231,8 +231,6 @@ pub struct BallBooking {
     pub timeout: f32,
     /// Between two announcements of a robot that keeps its booking.
     pub renewal: f32,
-    /// A robot does not book a ball that it has not seen for this long, although it still believes in it.
-    pub sight: f32,
 }
 
 impl Default for BallBooking {
@@ -242,7 +240,6 @@ impl Default for BallBooking {
             threshold: 0.3,
             timeout: 0.8,
             renewal: 0.2,
-            sight: 0.5,
         }
     }
 }
@@ -252,7 +249,6 @@ impl Validate for BallBooking {
         check_all([
             ("threshold", self.threshold, Bound::LENGTH),
             ("renewal", self.renewal, Bound::SECONDS.positive()),
-            ("sight", self.sight, Bound::SECONDS.positive()),
             ("timeout", self.timeout, Bound::SECONDS),
         ])?;
         ensure(self.timeout > self.renewal, "timeout", || {

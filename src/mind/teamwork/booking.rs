@@ -9,10 +9,11 @@ use crate::comms::messages::{Inbox, TeamMessage};
 use crate::comms::tcm::TcmClient;
 use crate::ids::RobotId;
 use crate::mind::world_model::WorldModel;
+use crate::pitch::Pitch;
 use crate::protocol::b3p::{B3p, BookingInput, BookingSettings, Distance};
 use crate::robot::{Orders, Robot};
 use crate::strategy::teamwork::{BallBooking, Mechanism};
-use crate::strategy::{Activity, Strategies, Strategy};
+use crate::strategy::{Role, Strategies, Strategy};
 
 /// A robot's side of the ball booking.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
@@ -42,7 +43,7 @@ pub(super) struct Booker {
     id: &'static RobotId,
     robot: &'static Robot,
     model: &'static WorldModel,
-    activity: &'static Activity,
+    role: &'static Role,
     inbox: &'static Inbox,
     booking: &'static mut Booking,
     team_model: &'static mut TeamModel,
@@ -51,7 +52,12 @@ pub(super) struct Booker {
 }
 
 /// One turn of each robot's loop: what was announced, then what it does itself.
-pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robots: Query<Booker>) {
+pub(super) fn book_ball(
+    clock: Res<Clock>,
+    pitch: Res<Pitch>,
+    strategies: Res<Strategies>,
+    mut robots: Query<Booker>,
+) {
     for mut robot in &mut robots {
         let strategy = strategies.of(robot.id.team);
         if !robot.robot.decides(&clock) || !strategy.teamwork.has(Mechanism::BallBooking) {
@@ -62,7 +68,7 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
                 robot.booking.0.step(clock.tick, BookingInput::Hear { from: received.from, book });
             }
         }
-        let input = robot.turn(strategy, &clock);
+        let input = robot.turn(strategy, &pitch);
         if let Some(book) = robot.booking.0.step(clock.tick, input) {
             robot.client.broadcast(&TeamMessage::Book(book));
         }
@@ -71,19 +77,20 @@ pub(super) fn book_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robo
 }
 
 impl BookerItem<'_, '_> {
-    /// A robot that knows where it is books the ball that it sees, if that is where its role may go; one that serves a
-    /// penalty, off the pitch or where it stands, lets it go.
-    fn turn(&self, strategy: &Strategy, clock: &Clock) -> BookingInput {
+    /// A robot that knows where it and the ball are tries to book it, wherever its role may go. Only a ball in the own
+    /// penalty area is the goalie's alone, by the laws of the game. One that serves a penalty, off the pitch or where it stands,
+    /// lets the ball go.
+    fn turn(&self, strategy: &Strategy, pitch: &Pitch) -> BookingInput {
         if self.orders.is_penalised() {
             return BookingInput::Withdraw;
         }
-        let sight = strategy.teamwork.ball_booking.map_or(0, |spec| clock.ticks(spec.sight));
-        let known = self.model.ball.filter(|_| self.model.is_localised());
-        let in_sight = known.filter(|ball| clock.tick.saturating_sub(ball.seen) <= sight);
-        let zone = self.activity.danger_zone(strategy);
-        let ball = in_sight.map(|ball| ball.position).filter(|at| zone.contains(*at));
-        let distance = ball.map(|at| Distance::from_metres(at.distance(self.model.pose.position)));
-        BookingInput::Turn { distance }
+        let goalie = strategy.teamwork.goalie.map(usize::from);
+        let is_barred = |at: Vec2| {
+            goalie.is_some_and(|goalie| goalie != self.role.0) && pitch.own_penalty_area().contains(at)
+        };
+        let known = self.model.ball.filter(|ball| self.model.is_localised() && !is_barred(ball.position));
+        let distance = known.map(|ball| ball.position.distance(self.model.pose.position));
+        BookingInput::Turn { distance: distance.map(Distance::from_metres) }
     }
 
     fn status(&self, tick: u64) -> BookingStatus {
