@@ -1,7 +1,9 @@
 //! What people see when a strategy file is wrong: file, line, column and field, in one line.
 
 use touchline::data::{AssetKind, Source};
+use touchline::protocol::b3p::{Rules, Update};
 use touchline::strategy::Strategy;
+use touchline::strategy::teamwork::Mechanism;
 
 use crate::support::{assets, strategy_text};
 
@@ -63,4 +65,29 @@ fn a_missing_file_is_said_to_be_missing() {
     let read = Strategy::read(&assets(), &path, None);
     let message = read.strategy.expect_err("there is no such file").to_string();
     assert!(message.contains("nobody.ron") && message.contains("hammerheads_2001"), "{message}");
+}
+
+fn shipped(name: &str) -> Strategy {
+    let path = assets().file(AssetKind::Strategy, name);
+    Strategy::read(&assets(), &path, None).strategy.unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn the_teams_of_teamchaos_share_everything_but_the_booking() {
+    let (with, without, paper) = (shipped("chaos_b3p"), shipped("chaos_plain"), shipped("chaos_b3p_paper"));
+    let mut stripped = with.clone();
+    stripped.name.clone_from(&without.name);
+    stripped.description.clone_from(&without.description);
+    assert!(with.teamwork.has(Mechanism::BallBooking) && with.teamwork.ball_booking.is_some());
+    stripped.teamwork.mechanisms = with.teamwork.mechanisms.without(Mechanism::BallBooking);
+    stripped.teamwork.ball_booking = None;
+    assert_eq!(stripped, without);
+
+    let mut by_the_letter = with.clone();
+    by_the_letter.name.clone_from(&paper.name);
+    by_the_letter.description.clone_from(&paper.description);
+    if let Some(booking) = &mut by_the_letter.teamwork.ball_booking {
+        booking.rules = Rules::Paper(Update::Always);
+    }
+    assert_eq!(by_the_letter, paper);
 }
