@@ -3,6 +3,7 @@
 pub mod behaviour;
 pub mod motor;
 pub mod perception;
+pub mod positioning;
 pub mod schemas;
 pub mod teamwork;
 pub mod world_model;

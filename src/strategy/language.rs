@@ -42,6 +42,9 @@ pub enum Point {
     SupportSpot { behind: f32, aside: f32 },
     /// A point on the half of the field that the goalie did not last leave or enter its area by; `y` is how far from the middle.
     AwayFromGoalie { x: f32, y: f32 },
+    /// The robot's place among those of the team mates that leave the ball to another (TeamChaos, section 4, requirement 4):
+    /// a task for each that is left, by importance.
+    OptimalPosition(Vec<CoverTask>),
     /// This place.
     At(Vec2),
     /// The member of a set that is nearest to the robot.
@@ -60,6 +63,17 @@ pub enum Point {
     Intercept { max_speed: f32 },
     /// The place in a zone that is nearest to a point.
     Into { zone: ZoneName, point: Box<Point> },
+}
+
+/// What a robot does for its team that leaves the ball to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum CoverTask {
+    /// It stands between the ball and the own goal.
+    ScreenGoal,
+    /// It waits before their goal, beside the way of a shot.
+    ReceiveRebound,
+    /// It goes where nobody is.
+    CoverSpace,
 }
 
 /// Any number of places.

@@ -13,6 +13,7 @@ mod pieces;
 mod reading;
 mod resolve;
 mod role;
+pub mod team_ball;
 pub mod teamwork;
 
 use std::sync::Arc;

@@ -5,10 +5,11 @@ use serde::{Deserialize, Serialize};
 use struct_patch::{Merge, Patch};
 
 use crate::data::{Bound, Fault, Validate, check_all, ensure};
-use crate::protocol::b3p;
 use crate::protocol::policy::{Policy, SwapRoles};
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
 use crate::strategy::role::RoleRef;
+pub use crate::strategy::team_ball::{BallBooking, BidBy, MapFusion};
+use crate::strategy::team_ball::{BallBookingFile, MapFusionFile};
 
 /// A mechanism of collaboration or coordination, each of which can be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -117,6 +118,8 @@ pub struct TeamworkFile {
     pub role_swap: Option<RoleSwapFile>,
     /// How the ball is booked.
     pub ball_booking: Option<BallBookingFile>,
+    /// How ball reports become one place.
+    pub global_map: MapFusionFile,
 }
 
 impl TeamworkFile {
@@ -132,6 +135,7 @@ impl TeamworkFile {
             talk: base.talk.merge(self.talk),
             role_swap: base.role_swap.map(swap).or(self.role_swap),
             ball_booking: base.ball_booking.map(booking).or(self.ball_booking),
+            global_map: base.global_map.merge(self.global_map),
         }
     }
 }
@@ -214,49 +218,6 @@ impl RoleSwapFile {
     }
 }
 
-/// How the ball is booked (TeamChaos, section 4). Times in seconds, lengths in metres.
-#[derive(Clone, Copy, Debug, PartialEq, Patch)]
-#[patch(
-    name = "BallBookingFile",
-    attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
-)]
-#[patch(attribute(serde(deny_unknown_fields, default)))]
-#[patch(attribute(expect(missing_docs, reason = "the fields of what a file may leave out")))]
-pub struct BallBooking {
-    /// Which bookings count.
-    pub rules: b3p::Rules,
-    /// How much nearer than the booker a robot must be to book the ball in its stead.
-    pub threshold: f32,
-    /// A booking that was not renewed for this long is free.
-    pub timeout: f32,
-    /// Between two announcements of a robot that keeps its booking.
-    pub renewal: f32,
-}
-
-impl Default for BallBooking {
-    fn default() -> BallBooking {
-        BallBooking {
-            rules: b3p::Rules::Hardened { release: true },
-            threshold: 0.3,
-            timeout: 0.8,
-            renewal: 0.2,
-        }
-    }
-}
-
-impl Validate for BallBooking {
-    fn validate(&self) -> Result<(), Fault> {
-        check_all([
-            ("threshold", self.threshold, Bound::LENGTH),
-            ("renewal", self.renewal, Bound::SECONDS.positive()),
-            ("timeout", self.timeout, Bound::SECONDS),
-        ])?;
-        ensure(self.timeout > self.renewal, "timeout", || {
-            format!("must be longer than the renewal of {} s, or every booking lapses", self.renewal)
-        })
-    }
-}
-
 /// The version of the protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Protocol {
@@ -336,6 +297,8 @@ pub struct Teamwork {
     pub role_swap: Option<RoleSwapSpec>,
     /// How the ball is booked.
     pub ball_booking: Option<BallBooking>,
+    /// How ball reports become one place.
+    pub global_map: MapFusion,
 }
 
 /// How roles are swapped, with every name looked up.

@@ -84,9 +84,7 @@ impl Perception<'_> {
     pub fn point(&self, point: &Point, memory: &mut Memory) -> Option<Vec2> {
         match point {
             Point::Ball => Some(self.model.ball?.position),
-            Point::TeamBall => {
-                self.model.ball.map(|ball| ball.position).or(self.team_model.reports.freshest())
-            }
+            Point::TeamBall => self.team_ball(),
             Point::BallIn(seconds) => {
                 let ball = self.model.ball?;
                 Some(roll_on(ball.position, ball.velocity, EXPECTED_ROLLING, *seconds).0)
@@ -105,6 +103,7 @@ impl Perception<'_> {
             Point::AwayFromGoalie { x, y } => {
                 Some(Vec2::new(*x, self.team_model.goalie.away(*y, self.own().position)))
             }
+            Point::OptimalPosition(tasks) => self.optimal_position(tasks),
             Point::At(place) => Some(*place),
             Point::Closest(of) => {
                 let own = self.own().position;

@@ -3,6 +3,7 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
+use super::bid::{Pace, bid};
 use super::team_model::{BookingStatus, TeamModel};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
@@ -89,8 +90,11 @@ impl BookerItem<'_, '_> {
             goalie.is_some_and(|goalie| goalie != self.role.0) && pitch.own_penalty_area().contains(at)
         };
         let known = self.model.ball.filter(|ball| self.model.is_localised() && !is_barred(ball.position));
-        let distance = known.map(|ball| ball.position.distance(self.model.pose.position));
-        BookingInput::Turn { distance: distance.map(Distance::from_metres) }
+        let bid = known.zip(strategy.teamwork.ball_booking).map(|(ball, spec)| {
+            let pace = Pace { speed: self.robot.kind.max_speed(), turn: self.robot.kind.max_turn() };
+            bid(spec.bid, self.model.pose, ball.position, pitch.goal_centre(), pace)
+        });
+        BookingInput::Turn { distance: bid.map(Distance::from_metres) }
     }
 
     fn status(&self, tick: u64) -> BookingStatus {

@@ -28,7 +28,7 @@ pub(super) fn hear_news(
         team.claims.forget(clock.tick, memory);
         team.goalie.forget(clock.tick, clock.ticks(GOALIE_MEMORY));
         let ball_memory = clock.ticks(strategies.of(id.team).teamwork.talk.ball_memory);
-        team.reports.forget(clock.tick, ball_memory);
+        team.map.forget(clock.tick, ball_memory);
     }
 }
 
@@ -50,7 +50,7 @@ impl TeamModel {
             }
             TeamMessage::Goalie(news) => self.goalie.hear(news, tick),
             TeamMessage::Values(values) => self.hear_values(received, values, tick),
-            TeamMessage::BallReport(report) => self.reports.hear(received.from, report, tick),
+            TeamMessage::BallReport(report) => self.map.hear(received.from, report, tick),
             TeamMessage::Position(_)
             | TeamMessage::RoleSwap(_)
             | TeamMessage::Book(_)

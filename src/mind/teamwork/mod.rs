@@ -3,11 +3,12 @@
 //! A robot listens to what came in, takes its part in role swaps, claims the ball if it is its to claim, and says what the
 //! others should know. What it wants to say waits in its outbox for the Transmit stage.
 
+mod bid;
 mod booking;
 mod claims;
+mod global_map;
 mod goalie;
 mod listen;
-mod reports;
 mod swap;
 mod talk;
 mod team_model;
@@ -18,8 +19,8 @@ use bevy::prelude::*;
 
 pub use booking::Booking;
 pub use claims::{Claim, Claims};
+pub use global_map::{BallEstimate, GlobalMap, Reported, fuse};
 pub use goalie::GoalieWhereabouts;
-pub use reports::{BallReports, Reported};
 pub use swap::{SwapAsked, Swapping};
 pub use team_model::{BookingStatus, LastSent, TeamModel, kick_off_roles};
 

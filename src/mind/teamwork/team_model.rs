@@ -4,8 +4,8 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 
 use super::claims::Claims;
+use super::global_map::GlobalMap;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
-use super::reports::BallReports;
 use crate::clock::Clock;
 use crate::comms::messages::Values;
 use crate::ids::PlayerNumber;
@@ -29,8 +29,8 @@ pub struct TeamModel {
     pub goalie: GoalieWhereabouts,
     /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.
     pub values: SmallVec<[(PlayerNumber, Values, u64); 4]>,
-    /// What the team mates said last of the ball.
-    pub reports: BallReports,
+    /// Where the ball is by all that was heard of it.
+    pub map: GlobalMap,
     /// The robot that has booked the ball, as this robot believes.
     pub booking: BookingStatus,
     /// If the robot is the goalie.
@@ -79,7 +79,7 @@ impl TeamModel {
             carrier: None,
             goalie: GoalieWhereabouts::default(),
             values: SmallVec::new(),
-            reports: BallReports::default(),
+            map: GlobalMap::default(),
             booking: BookingStatus::default(),
             border: BorderWatch::default(),
             last_sent: LastSent::default(),

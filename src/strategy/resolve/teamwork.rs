@@ -6,8 +6,8 @@ use crate::data::{DataError, Field, Source, Validate, no_such};
 use crate::protocol::policy::SwapRoles;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
-    BallBooking, Mechanism, Mechanisms, MessageTiming, RoleSwapFile, RoleSwapSpec, SwapRolesFile, Teamwork,
-    TeamworkFile, Timers,
+    BallBooking, MapFusion, Mechanism, Mechanisms, MessageTiming, RoleSwapFile, RoleSwapSpec, SwapRolesFile,
+    Teamwork, TeamworkFile, Timers,
 };
 
 /// The names of a strategy's roles in their order, and the text in which they are looked up.
@@ -38,6 +38,9 @@ impl Roles<'_> {
         let mut talk = MessageTiming::default();
         talk.apply(file.talk);
         self.source.locate(&at.key("talk"), talk.validate())?;
+        let mut global_map = MapFusion::default();
+        global_map.apply(file.global_map);
+        self.source.locate(&at.key("global_map"), global_map.validate())?;
         let role_swap = file.role_swap.as_ref().map(|swap| self.role_swap(swap, &at.key("role_swap")));
         let mut ball_booking = None;
         if let Some(file) = file.ball_booking {
@@ -53,6 +56,7 @@ impl Roles<'_> {
             talk,
             role_swap: role_swap.transpose()?.filter(|_| mechanisms.has(Mechanism::RoleSwap)),
             ball_booking: ball_booking.filter(|_| mechanisms.has(Mechanism::BallBooking)),
+            global_map,
         })
     }
 

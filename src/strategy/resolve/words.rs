@@ -24,6 +24,11 @@ impl Resolver<'_> {
             | Point::Own
             | Point::Carrier
             | Point::Booker => {}
+            Point::OptimalPosition(tasks) => {
+                if tasks.is_empty() {
+                    return self.fault(at, "needs a task at least");
+                }
+            }
             Point::Teammate(role) => self.role_ref(role, &at.index(0))?,
             Point::SupportSpot { behind, aside } => {
                 self.within(*behind, Bound::PLACE, &at.key("behind"))?;

@@ -41,7 +41,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
              last heard so, and how often the ball was booked again",
         );
     }
-    let reports: Vec<String> = (robot.of.team_model.reports.iter())
+    let reports: Vec<String> = (robot.of.team_model.map.iter())
         .map(|report| {
             let [x, y] = coordinates(report.position);
             format!("{} saw it at {x}, {y}", report.by)
