@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 use xxhash_rust::xxh3::{Xxh3DefaultBuilder, xxh3_64_with_seed};
 
-use super::Record;
+use super::figures::Record;
 use crate::comms::radio::RadioRecord;
 use crate::geometry::Pose;
 use crate::ids::RobotId;

@@ -100,12 +100,12 @@ impl SeenPlayerItem<'_, '_> {
     }
 }
 
-type BallBody = (&'static Pose, &'static Twist, Option<&'static RapierRigidBodyHandle>);
+type SeenBall = (&'static Pose, &'static Twist, Option<&'static RapierRigidBodyHandle>);
 
 /// All that the counters of play look at.
 #[derive(SystemParam)]
 pub(super) struct PlayView<'w, 's> {
-    ball: Single<'w, 's, BallBody, With<Ball>>,
+    ball: Single<'w, 's, SeenBall, With<Ball>>,
     players: Query<'w, 's, SeenPlayer, Without<OffPitch>>,
     contacts: Contacts<'w, 's>,
 }

@@ -4,6 +4,7 @@ use super::*;
 use crate::comms::radio::RadioRecord;
 use crate::geometry::{Pose, Twist};
 use crate::ids::Team::{Away, Home};
+use crate::rng::Seed;
 use crate::robot::handling::Handling;
 use crate::robot::{DriveCommand, OffPitch, Trailer, WheelSpeeds};
 use crate::strategy::{Activity, Role, Strategies};

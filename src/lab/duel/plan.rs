@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use bevy::prelude::{Vec2, With};
+
 use super::choice::DuelChoice;
 use super::judge::{DuelJudge, TrialResult};
 use super::report::DuelReport;
@@ -73,7 +75,7 @@ impl DuelPlan {
                 place_last(team, players, poses)
             })
             .collect();
-        plan.situation = Some(Situation { refereed: false, robots, ball: BALL, velocity: BALL });
+        plan.situation = Some(Situation { refereed: false, robots, ball: BALL, velocity: Vec2::ZERO });
         Some((plan, if first_is_home { Team::Home } else { Team::Away }))
     }
 
@@ -132,6 +134,6 @@ fn place_last(team: Team, players: usize, poses: Vec<Pose>) -> impl Iterator<Ite
 
 fn ball_of(game: &mut Match) -> Option<Pose> {
     let world = game.world_mut();
-    let mut balls = world.query_filtered::<&Pose, bevy::prelude::With<Ball>>();
+    let mut balls = world.query_filtered::<&Pose, With<Ball>>();
     balls.single(world).ok().copied()
 }
