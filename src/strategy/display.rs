@@ -24,6 +24,7 @@ impl fmt::Display for Feature {
                 let names: Vec<&str> = roles.iter().map(|role| role.name.as_str()).collect();
                 write!(f, "the {} has the ball", names.join(" or "))
             }
+            Feature::SuperiorHasBall => f.write_str("a team mate of higher rank has the ball"),
             Feature::HasBooked => f.write_str("has booked the ball"),
             Feature::TeammateHasBooked => f.write_str("a team mate has booked the ball"),
             Feature::HoldsBall => f.write_str("holds the ball"),

@@ -186,6 +186,16 @@ pub enum RoleFile {
         #[serde(default)]
         homebase_rule: HomebaseRule,
     },
+    /// Plays as another role does: its machine, its zone of control and its homebases.
+    StandsIn {
+        /// One or two letters for the label on the pitch.
+        tag: String,
+        /// The role, one that plays a machine.
+        role: String,
+        /// How it chooses among the homebases; as that role does, if left out.
+        #[serde(default)]
+        homebase_rule: Option<HomebaseRule>,
+    },
     /// The first sub-role whose feature holds; the last one chosen, while none does.
     ActsAs { tag: String, sub_roles: Vec<SubRoleFile> },
 }

@@ -127,6 +127,8 @@ pub enum ZoneName {
     Named(String),
     /// The zone of control of the robot's role (figure 2).
     DangerZone,
+    /// The zone of control of another role.
+    DangerZoneOf(RoleRef),
     /// The area in front of the team's own goal.
     PenaltyArea,
     /// This rectangle.
@@ -181,6 +183,8 @@ pub enum Feature {
     HasBall,
     /// A team mate's claim of the ball holds, one in one of these roles; any, if none is named.
     TeammateHasBall(Vec<RoleRef>),
+    /// A team mate's claim of the ball holds that ranks above the robot.
+    SuperiorHasBall,
     /// The robot has booked the ball.
     HasBooked,
     /// A team mate has booked the ball, and has renewed the booking recently.

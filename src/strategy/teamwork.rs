@@ -1,6 +1,8 @@
 //! The `teamwork` section of a strategy: which mechanisms are on, who ranks above whom, how often a robot says what, and how
 //! roles are swapped.
 
+mod timing;
+
 use serde::{Deserialize, Serialize};
 use struct_patch::{Merge, Patch};
 
@@ -10,6 +12,7 @@ use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
 use crate::strategy::role::RoleRef;
 pub use crate::strategy::team_ball::{BallBooking, BidBy, MapFusion};
 use crate::strategy::team_ball::{BallBookingFile, MapFusionFile};
+pub use timing::{MessageTiming, MessageTimingFile, TeamWatch, TeamWatchFile};
 
 /// A mechanism of collaboration or coordination, each of which can be switched off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -99,6 +102,18 @@ pub enum TeammatesBy {
     MessagesAndSight,
 }
 
+impl TeammatesBy {
+    /// Whether messages count.
+    pub fn hears(self) -> bool {
+        self != TeammatesBy::Sight
+    }
+
+    /// Whether sight counts.
+    pub fn sees(self) -> bool {
+        self != TeammatesBy::Messages
+    }
+}
+
 /// The section as it is written. What is left out is as in the strategy that a file is based on, or that a match or scenario
 /// names; where there is none, robots neither talk nor arrange anything.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -108,12 +123,17 @@ pub struct TeamworkFile {
     pub mechanisms: Option<Vec<Mechanism>>,
     /// How a robot knows its team mates.
     pub teammates_by: Option<TeammatesBy>,
+    /// How a robot knows which team mate has the ball and whether the goalie is out, and so when to support them; by messages,
+    /// if left out (section VIII).
+    pub supports_by: Option<TeammatesBy>,
     /// Roles by rank, the highest first; those that are missing rank lowest, all alike.
     pub hierarchy: Option<Vec<String>>,
     /// The role that sends goalie messages.
     pub goalie: Option<String>,
     /// When robots talk.
     pub talk: MessageTimingFile,
+    /// What tells a robot that another one has the ball, or that the goalie is out.
+    pub watch: TeamWatchFile,
     /// How roles are swapped.
     pub role_swap: Option<RoleSwapFile>,
     /// How the ball is booked.
@@ -130,66 +150,15 @@ impl TeamworkFile {
         TeamworkFile {
             mechanisms: self.mechanisms.or(base.mechanisms),
             teammates_by: self.teammates_by.or(base.teammates_by),
+            supports_by: self.supports_by.or(base.supports_by),
             hierarchy: self.hierarchy.or(base.hierarchy),
             goalie: self.goalie.or(base.goalie),
             talk: base.talk.merge(self.talk),
+            watch: base.watch.merge(self.watch),
             role_swap: base.role_swap.map(swap).or(self.role_swap),
             ball_booking: base.ball_booking.map(booking).or(self.ball_booking),
             global_map: base.global_map.merge(self.global_map),
         }
-    }
-}
-
-/// When robots talk and how long they believe what they heard, all in seconds, and how near to the ball it can be claimed.
-#[derive(Clone, Copy, Debug, PartialEq, Patch)]
-#[patch(
-    name = "MessageTimingFile",
-    attribute(derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize))
-)]
-#[patch(attribute(serde(deny_unknown_fields, default)))]
-#[patch(attribute(expect(missing_docs, reason = "the fields of what a file may leave out")))]
-pub struct MessageTiming {
-    /// Between two position messages.
-    pub position_every: f32,
-    /// For how long a position is believed.
-    pub position_memory: f32,
-    /// Between two have-ball messages of a robot that keeps the ball.
-    pub claim_every: f32,
-    /// For how long a claim is believed that was neither renewed nor given up.
-    pub claim_memory: f32,
-    /// A robot claims a ball that is nearer than this, m.
-    pub claim_radius: f32,
-    /// Between two reports of a ball that is in sight.
-    pub ball_every: f32,
-    /// For how long such a report is believed.
-    pub ball_memory: f32,
-}
-
-impl Default for MessageTiming {
-    fn default() -> MessageTiming {
-        MessageTiming {
-            position_every: 0.2,
-            position_memory: 1.5,
-            claim_every: 0.4,
-            claim_memory: 1.2,
-            claim_radius: 1.0,
-            ball_every: 0.3,
-            ball_memory: 1.5,
-        }
-    }
-}
-
-impl Validate for MessageTiming {
-    fn validate(&self) -> Result<(), Fault> {
-        check_all([
-            ("position_every", self.position_every, Bound::SECONDS.positive()),
-            ("position_memory", self.position_memory, Bound::SECONDS),
-            ("claim_every", self.claim_every, Bound::SECONDS.positive()),
-            ("claim_memory", self.claim_memory, Bound::SECONDS),
-            ("claim_radius", self.claim_radius, Bound::LENGTH),
-            ("ball_every", self.ball_every, Bound::SECONDS.positive()),
-            ("ball_memory", self.ball_memory, Bound::SECONDS),
-        ])
     }
 }
 
@@ -281,18 +250,22 @@ impl Validate for Timers {
 }
 
 /// The section as it runs.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Teamwork {
     /// Those that are on.
     pub mechanisms: Mechanisms,
     /// How a robot knows its team mates.
     pub teammates_by: TeammatesBy,
+    /// How a robot knows which team mate has the ball and whether the goalie is out.
+    pub supports_by: TeammatesBy,
     /// The rank of each role, 0 highest.
     pub ranks: Vec<usize>,
     /// The role that sends goalie messages.
     pub goalie: Option<RoleIndex>,
     /// When robots talk.
     pub talk: MessageTiming,
+    /// What tells a robot that another one has the ball, or that the goalie is out.
+    pub watch: TeamWatch,
     /// How roles are swapped.
     pub role_swap: Option<RoleSwapSpec>,
     /// How the ball is booked.
@@ -312,6 +285,23 @@ pub struct RoleSwapSpec {
     pub cast: SwapRoles,
     /// How long robots wait.
     pub timers: Timers,
+}
+
+impl Default for Teamwork {
+    fn default() -> Teamwork {
+        Teamwork {
+            mechanisms: Mechanisms::default(),
+            teammates_by: TeammatesBy::default(),
+            supports_by: TeammatesBy::Messages,
+            ranks: Vec::new(),
+            goalie: None,
+            talk: MessageTiming::default(),
+            watch: TeamWatch::default(),
+            role_swap: None,
+            ball_booking: None,
+            global_map: MapFusion::default(),
+        }
+    }
 }
 
 impl Teamwork {

@@ -18,7 +18,7 @@ use crate::game::Match;
 use crate::game::record::Record;
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
-use crate::mind::teamwork::{Booking, BookingStatus, Swapping, TeamModel};
+use crate::mind::teamwork::{Booking, BookingStatus, Carrier, Swapping, TeamModel};
 use crate::pitch::Pitch;
 use crate::robot::Robot;
 use crate::strategy::{Activity, Role, Strategies, Strategy};
@@ -132,7 +132,7 @@ fn robot_scene<'a>(
         holder: if team_model.has_ball {
             Some(id.number)
         } else {
-            team_model.carrier.map(|(number, _)| number)
+            team_model.carrier.and_then(Carrier::number)
         },
         goes: booking.is_some_and(|booking| booking.0.goes()),
         booker: match team_model.booking {

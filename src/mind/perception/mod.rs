@@ -26,6 +26,7 @@ use crate::mind::schemas::operators::{
 use crate::mind::teamwork::{BookingStatus, TeamModel};
 use crate::mind::world_model::{EXPECTED_ROLLING, WorldModel, roll_on};
 use crate::pitch::Pitch;
+use crate::strategy::RoleRef;
 use crate::strategy::language::{Feature, Point, Points, ZoneName};
 use crate::strategy::teamwork::{Mechanism, Teamwork};
 
@@ -184,7 +185,7 @@ impl Perception<'_> {
             ZoneName::DangerZone => self.danger_zone,
             ZoneName::PenaltyArea => self.pitch.own_penalty_area(),
             ZoneName::Exactly(zone) => *zone,
-            ZoneName::Named(name) => {
+            ZoneName::Named(name) | ZoneName::DangerZoneOf(RoleRef { name, .. }) => {
                 unreachable!("the name {name} was replaced when the strategy was loaded")
             }
         }
@@ -231,10 +232,12 @@ impl Perception<'_> {
             Feature::On(mechanism) => self.teamwork.has(*mechanism),
             Feature::InRole(role) => usize::from(role.index) == self.role,
             Feature::HasBall => self.team_model.has_ball,
-            Feature::TeammateHasBall(roles) => self
-                .team_model
-                .carrier
-                .is_some_and(|(_, role)| roles.is_empty() || roles.iter().any(|wanted| wanted.index == role)),
+            Feature::TeammateHasBall(roles) => self.team_model.carrier.is_some_and(|carrier| {
+                carrier.has_one_of(roles.iter().map(|role| role.index), self.teamwork)
+            }),
+            Feature::SuperiorHasBall => {
+                self.team_model.carrier.is_some_and(|carrier| carrier.outranks(self.role, self.teamwork))
+            }
             Feature::HasBooked => self.team_model.booking == BookingStatus::Own,
             Feature::TeammateHasBooked => matches!(self.team_model.booking, BookingStatus::Mate(_)),
             Feature::HoldsBall => self.holds_ball,

@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use super::{Perception, PointSet};
 use crate::ids::PlayerNumber;
 use crate::mind::positioning::{FieldView, optimal_position};
-use crate::mind::teamwork::{BallEstimate, BookingStatus, fuse};
+use crate::mind::teamwork::{BallEstimate, BookingStatus, Carrier, fuse};
 use crate::mind::world_model::MateBelief;
 use crate::strategy::language::CoverTask;
 use crate::strategy::teamwork::{Mechanism, TeammatesBy};
@@ -65,10 +65,12 @@ impl Perception<'_> {
         }
     }
 
-    /// Where the team mate is that has claimed the ball.
+    /// Where the team mate is that has the ball.
     pub(super) fn carrier(&self) -> Option<Vec2> {
-        let (number, _) = self.team_model.carrier?;
-        Some(self.model.mate(number)?.position)
+        match self.team_model.carrier? {
+            Carrier::Known(number, _) => Some(self.model.mate(number)?.position),
+            Carrier::Seen { at, .. } => Some(at),
+        }
     }
 
     /// Where the ball is by the global map: what the robot saw itself and what its mates tell, fused; or if the strategy does

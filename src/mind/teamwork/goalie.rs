@@ -4,6 +4,7 @@ use bevy::prelude::*;
 
 use crate::comms::messages::{GoalSide, GoalieBehaviour, GoalieNews};
 use crate::geometry::Zone;
+use crate::strategy::teamwork::TeamWatch;
 
 /// The goalie's own watch over the border of its penalty area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -11,29 +12,31 @@ pub struct BorderWatch {
     is_out: bool,
 }
 
-/// The border is this wide, so that a goalie that stands on it does not leave and enter all the time, m.
-const BORDER: f32 = 0.1;
-/// Crossings nearer to the middle of the goal than this are at the centre, m.
-const CENTRE: f32 = 0.2;
-
 impl BorderWatch {
     /// What there is to tell, given the goalie's place in the team frame: it leaves when it comes out on the ball's account,
     /// and enters when it is back, whatever brings it.
-    pub fn update(&mut self, own: Vec2, area: Zone, acquires: bool) -> Option<(GoalieBehaviour, GoalSide)> {
+    pub fn update(
+        &mut self,
+        own: Vec2,
+        area: Zone,
+        acquires: bool,
+        watch: &TeamWatch,
+    ) -> Option<(GoalieBehaviour, GoalSide)> {
         let behaviour = match self.is_out {
-            false if acquires && !area.grown(BORDER).contains(own) => GoalieBehaviour::Leaving,
+            false if acquires && !area.grown(watch.border).contains(own) => GoalieBehaviour::Leaving,
             true if area.contains(own) => GoalieBehaviour::Entering,
             _ => return None,
         };
         self.is_out = behaviour == GoalieBehaviour::Leaving;
-        Some((behaviour, side(own)))
+        Some((behaviour, side(own, watch.centre)))
     }
 }
 
-fn side(own: Vec2) -> GoalSide {
+/// Which side of the goal a place is on, if it is farther from the middle than `centre` metres.
+fn side(own: Vec2, centre: f32) -> GoalSide {
     match own.y {
-        y if y > CENTRE => GoalSide::Left,
-        y if y < -CENTRE => GoalSide::Right,
+        y if y > centre => GoalSide::Left,
+        y if y < -centre => GoalSide::Right,
         _ => GoalSide::Centre,
     }
 }
@@ -47,7 +50,7 @@ pub struct GoalieWhereabouts {
     pub side: Option<GoalSide>,
     /// Milliseconds on the goalie's clock.
     time: u32,
-    /// The tick in which it was heard.
+    /// The tick in which it was heard or seen.
     heard: u64,
 }
 
@@ -63,6 +66,11 @@ impl GoalieWhereabouts {
             time: news.time,
             heard: tick,
         };
+    }
+
+    /// Takes note of a goalie that was seen to have crossed the border at a place.
+    pub(super) fn crossed(&mut self, at: Vec2, is_out: bool, watch: &TeamWatch, tick: u64) {
+        (self.is_out, self.side, self.heard) = (is_out, Some(side(at, watch.centre)), tick);
     }
 
     /// A goalie that left this many ticks ago and was not heard since is taken to be back: its message may have been lost.
@@ -88,20 +96,21 @@ mod tests {
 
     #[test]
     fn the_goalie_tells_when_it_leaves_for_the_ball_and_when_it_is_back() {
-        let mut watch = BorderWatch::default();
-        assert_eq!(watch.update(Vec2::new(-4.0, 0.0), AREA, true), None);
-        assert_eq!(watch.update(Vec2::new(-3.45, 1.0), AREA, true), None, "on the border");
-        let left = watch.update(Vec2::new(-3.3, 1.0), AREA, true);
+        let (mut border, watch) = (BorderWatch::default(), TeamWatch::default());
+        let mut update = |at: Vec2, acquires| border.update(at, AREA, acquires, &watch);
+        assert_eq!(update(Vec2::new(-4.0, 0.0), true), None);
+        assert_eq!(update(Vec2::new(-3.45, 1.0), true), None, "on the border");
+        let left = update(Vec2::new(-3.3, 1.0), true);
         assert_eq!(left, Some((GoalieBehaviour::Leaving, GoalSide::Left)));
-        assert_eq!(watch.update(Vec2::new(-2.0, 1.0), AREA, false), None);
-        assert_eq!(watch.update(Vec2::new(-3.45, 0.0), AREA, false), None, "on the border");
-        let entered = watch.update(Vec2::new(-3.6, 0.0), AREA, false);
+        assert_eq!(update(Vec2::new(-2.0, 1.0), false), None);
+        assert_eq!(update(Vec2::new(-3.45, 0.0), false), None, "on the border");
+        let entered = update(Vec2::new(-3.6, 0.0), false);
         assert_eq!(entered, Some((GoalieBehaviour::Entering, GoalSide::Centre)));
     }
 
     #[test]
     fn a_goalie_that_is_carried_out_says_nothing() {
-        assert_eq!(BorderWatch::default().update(Vec2::new(0.0, 0.0), AREA, false), None);
+        assert_eq!(BorderWatch::default().update(Vec2::ZERO, AREA, false, &TeamWatch::default()), None);
     }
 
     fn news(time: u32, behaviour: GoalieBehaviour, side: GoalSide) -> GoalieNews {

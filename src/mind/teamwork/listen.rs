@@ -8,9 +8,7 @@ use crate::comms::messages::{Inbox, Received, TeamMessage, Values};
 use crate::ids::RobotId;
 use crate::robot::Robot;
 use crate::strategy::Strategies;
-
-/// A goalie that has not been heard for this long is taken to be back, s.
-const GOALIE_MEMORY: f32 = 20.0;
+use crate::strategy::teamwork::Teamwork;
 
 pub(super) fn hear_news(
     clock: Res<Clock>,
@@ -21,14 +19,13 @@ pub(super) fn hear_news(
         if !robot.decides(&clock) {
             continue;
         }
-        let memory = clock.ticks(strategies.of(id.team).teamwork.talk.claim_memory);
+        let teamwork = &strategies.of(id.team).teamwork;
         for received in &inbox.0 {
-            team.hear(received, clock.tick);
+            team.hear(received, teamwork, clock.tick);
         }
-        team.claims.forget(clock.tick, memory);
-        team.goalie.forget(clock.tick, clock.ticks(GOALIE_MEMORY));
-        let ball_memory = clock.ticks(strategies.of(id.team).teamwork.talk.ball_memory);
-        team.map.forget(clock.tick, ball_memory);
+        team.claims.forget(clock.tick, clock.ticks(teamwork.talk.claim_memory));
+        team.goalie.forget(clock.tick, clock.ticks(teamwork.watch.goalie_memory));
+        team.map.forget(clock.tick, clock.ticks(teamwork.talk.ball_memory));
     }
 }
 
@@ -42,8 +39,9 @@ pub(super) fn take_messages(clock: Res<Clock>, mut robots: Query<(&Robot, &mut I
 }
 
 impl TeamModel {
-    fn hear(&mut self, received: &Received, tick: u64) {
+    fn hear(&mut self, received: &Received, teamwork: &Teamwork, tick: u64) {
         match &received.message {
+            TeamMessage::HaveBall(_) | TeamMessage::Goalie(_) if !teamwork.supports_by.hears() => {}
             TeamMessage::HaveBall(message) => {
                 self.claims.hear(received.from, message, tick);
                 self.note_role(received.from, message.role);

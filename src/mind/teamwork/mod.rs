@@ -9,6 +9,7 @@ mod claims;
 mod global_map;
 mod goalie;
 mod listen;
+mod sight;
 mod swap;
 mod talk;
 mod team_model;
@@ -21,6 +22,7 @@ pub use booking::Booking;
 pub use claims::{Claim, Claims};
 pub use global_map::{BallEstimate, GlobalMap, Reported, fuse};
 pub use goalie::GoalieWhereabouts;
+pub use sight::Carrier;
 pub use swap::{SwapAsked, Swapping};
 pub use team_model::{BookingStatus, LastSent, TeamModel, kick_off_roles};
 
@@ -53,6 +55,7 @@ pub(super) fn plugin(app: &mut App) {
     state(app);
     let in_order = (
         listen::hear_news,
+        sight::watch_goalie,
         swap::swap_roles,
         talk::claim_ball,
         booking::book_ball,

@@ -3,6 +3,7 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
+use super::sight::{Carrier, carrier_in_sight};
 use super::swap::Swapping;
 use super::team_model::TeamModel;
 use crate::clock::Clock;
@@ -10,11 +11,11 @@ use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Position, TeamMes
 use crate::comms::tcm::TcmClient;
 use crate::geometry::unit;
 use crate::ids::RobotId;
-use crate::mind::world_model::WorldModel;
+use crate::mind::world_model::{BallBelief, WorldModel};
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::RoleIndex;
 use crate::robot::{OffPitch, Orders, Robot};
-use crate::strategy::teamwork::{Mechanism, MessageTiming};
+use crate::strategy::teamwork::{Mechanism, MessageTiming, Teamwork};
 use crate::strategy::{Activity, Role, State, Strategies, Strategy};
 
 /// A robot that may claim the ball.
@@ -31,27 +32,51 @@ pub(super) struct Claimant {
 }
 
 /// A robot claims the ball while it is within a metre of it in an acquire behaviour, unless somebody above it does.
-pub(super) fn claim_ball(clock: Res<Clock>, strategies: Res<Strategies>, mut robots: Query<Claimant>) {
+pub(super) fn claim_ball(
+    clock: Res<Clock>,
+    pitch: Res<Pitch>,
+    strategies: Res<Strategies>,
+    mut robots: Query<Claimant>,
+) {
     for mut robot in &mut robots {
         if !robot.robot.decides(&clock) {
             continue;
         }
         let strategy = strategies.of(robot.id.team);
-        let own = robot.is_at_ball(strategy).then_some((robot.id.number, robot.role.0 as RoleIndex));
-        let claims = strategy.teamwork.has(Mechanism::Claims);
-        let holder = robot.team_model.claims.holder(own, &strategy.teamwork).filter(|_| claims);
-        robot.team_model.has_ball = holder.is_some() && holder == own;
-        robot.team_model.carrier = holder.filter(|_| holder != own);
+        let teamwork = &strategy.teamwork;
+        if !teamwork.has(Mechanism::Claims) {
+            (robot.team_model.has_ball, robot.team_model.carrier) = (false, None);
+            continue;
+        }
+        let own = robot.is_at_ball(strategy, &clock).then_some((robot.id.number, robot.role.0 as RoleIndex));
+        let holder = robot.team_model.claims.holder(own, teamwork);
+        let seen = robot.sees_carrier(teamwork, &pitch).filter(|seen| match holder {
+            Some(holder) if Some(holder) == own => seen.outranks(robot.role.0, teamwork),
+            other => other.is_none(),
+        });
+        let told = holder.filter(|_| holder != own).map(|(number, role)| Carrier::Known(number, role));
+        robot.team_model.has_ball = holder.is_some() && holder == own && seen.is_none();
+        robot.team_model.carrier = seen.or(told);
     }
 }
 
 impl ClaimantItem<'_, '_> {
-    fn is_at_ball(&self, strategy: &Strategy) -> bool {
-        let radius = strategy.teamwork.talk.claim_radius;
-        let near = |ball: Vec2| ball.distance(self.model.pose.position) <= radius;
+    fn is_at_ball(&self, strategy: &Strategy, clock: &Clock) -> bool {
+        let talk = &strategy.teamwork.talk;
+        let at_it = |ball: &BallBelief| {
+            let in_sight = clock.tick.saturating_sub(ball.seen) <= clock.ticks(talk.claim_sight);
+            in_sight && ball.position.distance(self.model.pose.position) <= talk.claim_radius
+        };
         !self.orders.is_penalised()
             && state(self.activity, strategy).acquires
-            && self.model.ball.is_some_and(|ball| near(ball.position))
+            && self.model.ball.as_ref().is_some_and(at_it)
+    }
+
+    /// The team mate that it sees at the ball, if sight counts.
+    fn sees_carrier(&self, teamwork: &Teamwork, pitch: &Pitch) -> Option<Carrier> {
+        let area = pitch.own_penalty_area();
+        let seen = || carrier_in_sight(self.model, &self.team_model, self.id.team, area, teamwork);
+        teamwork.supports_by.sees().then(seen).flatten()
     }
 }
 
@@ -118,7 +143,7 @@ impl SpeakerItem<'_, '_> {
         let own = self.model.pose.position;
         let acquires = state(self.activity, strategy).acquires;
         if let Some((behaviour, side)) =
-            self.team_model.border.update(own, pitch.own_penalty_area(), acquires)
+            self.team_model.border.update(own, pitch.own_penalty_area(), acquires, &strategy.teamwork.watch)
         {
             let (time, robot) = (milliseconds(clock), self.id.number);
             self.client.broadcast(&TeamMessage::Goalie(GoalieNews { time, robot, behaviour, side }));

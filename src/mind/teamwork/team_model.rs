@@ -6,6 +6,7 @@ use smallvec::SmallVec;
 use super::claims::Claims;
 use super::global_map::GlobalMap;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
+use super::sight::Carrier;
 use crate::clock::Clock;
 use crate::comms::messages::Values;
 use crate::ids::PlayerNumber;
@@ -23,8 +24,8 @@ pub struct TeamModel {
     pub claims: Claims,
     /// Whether the robot has claimed the ball and nobody above it has.
     pub has_ball: bool,
-    /// The team mate whose claim of the ball holds, and its role.
-    pub carrier: Option<(PlayerNumber, RoleIndex)>,
+    /// The team mate that has the ball: whose claim of it holds, or that is seen at it.
+    pub carrier: Option<Carrier>,
     /// Where the goalie is.
     pub goalie: GoalieWhereabouts,
     /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.

@@ -108,8 +108,14 @@ impl WorldModel {
 
     /// The team mates seen that are none of those heard.
     pub fn strangers(&self, team: Team) -> impl Iterator<Item = Vec2> + '_ {
-        let is_known = |seen: &Vec2| self.mates.iter().any(|mate| mate.position.distance(*seen) < SAME_ROBOT);
-        self.of_team(team).filter(move |seen| !is_known(seen))
+        self.of_team(team).filter(|seen| self.known_as(*seen).is_none())
+    }
+
+    /// The team mate that says that it is where one is seen.
+    pub fn known_as(&self, seen: Vec2) -> Option<PlayerNumber> {
+        let near = self.mates.iter().filter(|mate| mate.position.distance(seen) < SAME_ROBOT);
+        let nearest = near.min_by(|a, b| a.position.distance(seen).total_cmp(&b.position.distance(seen)));
+        nearest.map(|mate| mate.number)
     }
 
     /// The robots of a team that were seen.

@@ -3,6 +3,7 @@
 
 mod assemblage;
 mod machine;
+mod roles;
 mod teamwork;
 #[cfg(test)]
 mod tests;
@@ -12,9 +13,9 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
 
-use super::file::{RoleFile, StrategyFile};
+use super::file::StrategyFile;
 use super::language::Feature;
-use super::pieces::{HomebaseRule, Part, Play, RoleSpec, Strategy, SubRole, stretched};
+use super::pieces::{Strategy, stretched};
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Zone;
 pub(super) use teamwork::Roles;
@@ -201,50 +202,6 @@ impl Resolver<'_> {
         let mut resolved = feature.clone();
         self.feature(&mut resolved, at)?;
         Ok(resolved)
-    }
-
-    fn role(&mut self, name: &str, file: &RoleFile, at: &Field) -> Resolved<RoleSpec> {
-        let (tag, part) = match file {
-            RoleFile::Plays { tag, machine, danger_zone, homebases, homebase_rule } => {
-                let machine = self.index(&self.file.machines, "machine", machine, &at.key("machine"))?;
-                self.sound_zone(*danger_zone, &at.key("danger_zone"))?;
-                if homebases.is_empty() {
-                    return self.fault(&at.key("homebases"), "needs at least one homebase");
-                }
-                for (i, home) in homebases.iter().enumerate() {
-                    self.place(*home, &at.key("homebases").index(i))?;
-                }
-                let mut homebase_rule = homebase_rule.clone();
-                if let HomebaseRule::FarthestFrom(role) | HomebaseRule::NotNearestOf(role) =
-                    &mut homebase_rule
-                {
-                    self.role_ref(role, &at.key("homebase_rule"))?;
-                }
-                let homebases = homebases.iter().map(|home| *home * self.scale).collect();
-                let danger_zone = danger_zone.scaled(self.scale);
-                (tag, Part::Plays(Play { machine, danger_zone, homebases, homebase_rule }))
-            }
-            RoleFile::ActsAs { tag, sub_roles } => {
-                let at = at.key("sub_roles");
-                let mut list = Vec::with_capacity(sub_roles.len());
-                for (i, sub_role) in sub_roles.iter().enumerate() {
-                    let at = at.index(i);
-                    let role = self.index(&self.file.roles, "role", &sub_role.role, &at.key("role"))?;
-                    if !matches!(self.file.roles.get(&sub_role.role), Some(RoleFile::Plays { .. })) {
-                        return self.fault(&at.key("role"), "a sub-role must be a role that plays a machine");
-                    }
-                    list.push(SubRole {
-                        when: self.resolved_feature(&sub_role.when, &at.key("when"))?,
-                        role,
-                    });
-                }
-                if list.is_empty() {
-                    return self.fault(&at, "needs at least one sub-role");
-                }
-                (tag, Part::ActsAs(list))
-            }
-        };
-        Ok(RoleSpec { name: name.into(), tag: tag.clone(), part })
     }
 
     fn players(&self, at: &Field) -> Resolved<Vec<usize>> {

@@ -7,7 +7,7 @@ use crate::protocol::policy::SwapRoles;
 use crate::protocol::role_swap::RoleIndex;
 use crate::strategy::teamwork::{
     BallBooking, MapFusion, Mechanism, Mechanisms, MessageTiming, RoleSwapFile, RoleSwapSpec, SwapRolesFile,
-    Teamwork, TeamworkFile, Timers,
+    TeamWatch, TeammatesBy, Teamwork, TeamworkFile, Timers,
 };
 
 /// The names of a strategy's roles in their order, and the text in which they are looked up.
@@ -41,6 +41,9 @@ impl Roles<'_> {
         let mut global_map = MapFusion::default();
         global_map.apply(file.global_map);
         self.source.locate(&at.key("global_map"), global_map.validate())?;
+        let mut watch = TeamWatch::default();
+        watch.apply(file.watch);
+        self.source.locate(&at.key("watch"), watch.validate())?;
         let role_swap = file.role_swap.as_ref().map(|swap| self.role_swap(swap, &at.key("role_swap")));
         let mut ball_booking = None;
         if let Some(file) = file.ball_booking {
@@ -51,9 +54,11 @@ impl Roles<'_> {
         Ok(Teamwork {
             mechanisms,
             teammates_by: file.teammates_by.unwrap_or_default(),
+            supports_by: file.supports_by.unwrap_or(TeammatesBy::Messages),
             ranks,
             goalie,
             talk,
+            watch,
             role_swap: role_swap.transpose()?.filter(|_| mechanisms.has(Mechanism::RoleSwap)),
             ball_booking: ball_booking.filter(|_| mechanisms.has(Mechanism::BallBooking)),
             global_map,

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use crate::data::{AssetFolder, Source};
-use crate::strategy::Strategy;
+use crate::strategy::language::{Feature, Point, ZoneName};
+use crate::strategy::{HomebaseRule, Play, Strategy, played};
 
 /// A strategy of one player with these pieces.
 fn with(pieces: &str) -> String {
@@ -265,5 +266,63 @@ fn states_may_hold_states_but_not_without_end() {
     assert_eq!(nested(2).map(|strategy| strategy.machines[0].composites.len()), Ok(2));
     for depth in [100, 1000] {
         assert!(nested(depth).is_err());
+    }
+}
+
+/// A strategy with these roles besides a keeper, which plays a machine, and a floater, which acts as it.
+fn with_roles(roles: &str, features: &str) -> String {
+    format!(
+        r#"(name: "x", robot_kinds: ["cye"], players: ["keeper"], kick_off: (ours: [(-1, 0)], theirs: [(-1, 0)]),
+        machines: {{"m": (start: "s", states: {{"s": (on: [(when: {features}, go: "s")])}})}},
+        roles: {{
+            "keeper": Plays(tag: "K", machine: "m", danger_zone: (min: (-3, -1), max: (-1, 1)), homebases: [(-2, 0), (-1, 0)]),
+            "floater": ActsAs(tag: "F", sub_roles: [(when: Always, role: "keeper")]),
+            {roles}
+        }})"#
+    )
+}
+
+#[test]
+fn who_stands_in_for_a_role_plays_its_machine_in_its_zone_from_its_homebases() {
+    let strategy = read(&with_roles(
+        r#""second": StandsIn(tag: "S", role: "keeper", homebase_rule: FarthestFrom("keeper"))"#,
+        "Always",
+    ));
+    let strategy = strategy.unwrap_or_else(|error| panic!("{error}"));
+    let play = |name: &str| {
+        played(strategy.roles.iter().find(|role| role.name == name).expect("it has that role")).clone()
+    };
+    let (keeper, second) = (play("keeper"), play("second"));
+    assert!(matches!(second.homebase_rule, HomebaseRule::FarthestFrom(_)));
+    assert_eq!(Play { homebase_rule: keeper.homebase_rule.clone(), ..second }, keeper);
+}
+
+#[test]
+fn a_zone_of_control_is_that_of_a_role_that_has_one() {
+    let asks = |role: &str| format!(r#"In(zone: DangerZoneOf("{role}"), point: Ball)"#);
+    let second = r#""second": StandsIn(tag: "S", role: "keeper")"#;
+    for role in ["keeper", "second"] {
+        let strategy = read(&with_roles(second, &asks(role))).unwrap_or_else(|error| panic!("{error}"));
+        let when = &strategy.machines[0].states[0].transitions[0].when;
+        let zone = played(&strategy.roles[strategy.players[0]]).danger_zone;
+        assert_eq!(*when, Feature::In { zone: ZoneName::Exactly(zone), point: Point::Ball });
+    }
+    for (roles, features, told) in [
+        (second, asks("floater"), "`floater` has no zone of control of its own"),
+        (second, asks("striker"), "striker"),
+        (
+            r#""second": StandsIn(tag: "S", role: "floater")"#,
+            "Always".into(),
+            "stands in for a role that plays a machine",
+        ),
+        (
+            r#""second": StandsIn(tag: "S", role: "second")"#,
+            asks("second"),
+            "`second` has no zone of control of its own",
+        ),
+        (r#""second": StandsIn(tag: "S", role: "striker")"#, "Always".into(), "striker"),
+    ] {
+        let error = read(&with_roles(roles, &features)).unwrap_err();
+        assert!(error.contains(told), "{error}");
     }
 }

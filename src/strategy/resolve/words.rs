@@ -138,6 +138,7 @@ impl Resolver<'_> {
                 self.sound_zone(*zone, at)?;
                 *zone = zone.scaled(self.scale);
             }
+            ZoneName::DangerZoneOf(role) => *zone = ZoneName::Exactly(self.danger_zone_of(&role.name, at)?),
             ZoneName::DangerZone | ZoneName::PenaltyArea => {}
         }
         Ok(())
@@ -155,6 +156,7 @@ impl Resolver<'_> {
             Feature::Always
             | Feature::On(_)
             | Feature::HasBall
+            | Feature::SuperiorHasBall
             | Feature::HasBooked
             | Feature::TeammateHasBooked
             | Feature::HoldsBall

@@ -12,7 +12,7 @@ use crate::app::view::picture::visuals::BodyVisual;
 use crate::app::view::state::{Overlay, Overlays};
 use crate::geometry::Attacking;
 use crate::ids::RobotId;
-use crate::mind::teamwork::{Swapping, TeamModel};
+use crate::mind::teamwork::{Carrier, Swapping, TeamModel};
 use crate::pitch::Pitch;
 use crate::robot::{OffPitch, Robot};
 use crate::strategy::{Activity, Strategies};
@@ -78,7 +78,11 @@ pub(super) fn draw(
         let activity = activity.and_then(|machine| machine.states.get(mate.activity.state));
         let goal = match activity.and_then(|activity| supported(&activity.name)).filter(|_| works) {
             Some(Supported::Carrier) => {
-                let carrier = mate.team_model.carrier.map(|(number, _)| RobotId { number, ..*mate.id });
+                let carrier = mate
+                    .team_model
+                    .carrier
+                    .and_then(Carrier::number)
+                    .map(|number| RobotId { number, ..*mate.id });
                 carrier.and_then(place_of)
             }
             Some(Supported::OwnGoal) => Some(own_goal(&pitch, state.attacking(mate.id.team))),

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::comms::messages::{BallReport, HaveBall};
-use crate::mind::teamwork::BookingStatus;
+use crate::mind::teamwork::{BookingStatus, Carrier};
 use crate::strategy::RoleRef;
 use crate::strategy::language::CoverTask;
 use crate::strategy::teamwork::{Mechanism, TeammatesBy};
@@ -69,17 +69,28 @@ fn a_robot_seen_where_a_mate_says_it_is_is_that_mate() {
 fn the_carrier_is_where_the_claimant_says_it_is() {
     let mut here = ranked();
     assert_eq!(places(&here, Points::Claimant), []);
-    here.team_model.carrier = Some((3, 3));
+    here.team_model.carrier = Some(Carrier::Known(3, 3));
     assert_eq!(places(&here, Points::Claimant), [v(0.0, 1.0)]);
     assert!(holds(&here, Feature::TeammateHasBall(vec![])));
     assert!(holds(&here, Feature::TeammateHasBall(vec![role(3)])));
     assert!(!holds(&here, Feature::TeammateHasBall(vec![role(1)])));
+    assert!(!holds(&here, Feature::SuperiorHasBall), "the forward ranks below");
+    here.team_model.carrier = Some(Carrier::Known(1, 1));
+    assert!(holds(&here, Feature::SuperiorHasBall));
+}
+
+#[test]
+fn a_carrier_that_is_only_seen_is_where_it_is_seen() {
+    let mut here = ranked();
+    here.team_model.carrier = Some(Carrier::Seen { at: v(-2.0, 0.0), is_goalie: false });
+    assert_eq!(places(&here, Points::Claimant), [v(-2.0, 0.0)]);
+    assert!(holds(&here, Feature::SuperiorHasBall), "it may rank above");
 }
 
 #[test]
 fn support_is_behind_and_to_the_side_where_the_robot_is() {
     let mut here = Situation::at(0.0, 1.5, 0.0).mate(3, 1.0, 0.0);
-    here.team_model.carrier = Some((3, 3));
+    here.team_model.carrier = Some(Carrier::Known(3, 3));
     let spot = Point::SupportSpot { behind: 1.0, aside: 0.5 };
     assert_eq!(place(&here, spot.clone()), Some(v(0.0, 0.5)));
     here.model.pose.position.y = -1.5;
@@ -89,7 +100,7 @@ fn support_is_behind_and_to_the_side_where_the_robot_is() {
 #[test]
 fn support_changes_sides_at_a_wall() {
     let mut here = Situation::at(0.0, 2.3, 0.0).mate(3, 4.4, 2.0);
-    here.team_model.carrier = Some((3, 3));
+    here.team_model.carrier = Some(Carrier::Known(3, 3));
     let spot = place(&here, Point::SupportSpot { behind: 0.5, aside: 1.0 }).expect("the carrier is known");
     assert!(spot.y <= 2.1 && spot.x <= 4.1, "{spot}");
 }
