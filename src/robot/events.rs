@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use bevy::math::Vec2;
+
 use super::{Restart, RobotKind, Sensing};
 use crate::clock::Clock;
 use crate::geometry::Pose;
@@ -72,4 +74,13 @@ pub struct StrategyChanged {
     pub new: Arc<Strategy>,
     /// When.
     pub tick: u64,
+}
+
+/// A robot takes itself to be elsewhere from now on, and cannot know: its localisation errs by this much more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misled {
+    /// m in the pitch frame.
+    pub by: Vec2,
+    /// rad
+    pub turn: f32,
 }

@@ -19,7 +19,7 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use smallvec::SmallVec;
 
-pub use events::{PutDown, RobotStart, StrategyChanged, SwitchedOff, SwitchedOn};
+pub use events::{Misled, PutDown, RobotStart, StrategyChanged, SwitchedOff, SwitchedOn};
 pub use gait::Gait;
 pub use health::{Health, Restart, RobotFailure};
 pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};

@@ -61,6 +61,8 @@ pub enum RobotChange {
     Swap(Reassignment),
     /// Its body and its senses have other values from now on; its size and the rate of its decisions stay.
     Recalibrate(Calibration),
+    /// It takes itself to be elsewhere from now on: by so many metres in the pitch frame, and turned by so many radians.
+    Mislead { by: Vec2, turn: f32 },
     /// It decides in this process from now on, as if it had just been switched on, and counts its messages from here on.
     PlayHere { counter: u32 },
 }

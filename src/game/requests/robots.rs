@@ -8,10 +8,10 @@ use super::queue::Requests;
 use super::request::{Calibration, Request, RobotChange};
 use crate::clock::Clock;
 use crate::comms::tcm::CountFrom;
-use crate::data::Validate;
+use crate::data::{Bound, Validate};
 use crate::ids::RobotId;
 use crate::mind::teamwork::SwapAsked;
-use crate::robot::{Restart, Robot, RobotKind, SwitchedOff, SwitchedOn};
+use crate::robot::{Misled, Restart, Robot, RobotKind, SwitchedOff, SwitchedOn};
 use crate::state::event;
 use crate::strategy::Strategies;
 use crate::world::referee::PenaltiesDue;
@@ -50,6 +50,11 @@ pub(super) fn change_robots(
             RobotChange::Swap(reassignment) => {
                 entity.queue(event(SwapAsked(reassignment.clone())));
             }
+            RobotChange::Mislead { by, turn } if turn.is_finite() => {
+                let by = Bound::PLACE.clamp_vector(*by);
+                entity.queue(event(Misled { by, turn: *turn }));
+            }
+            RobotChange::Mislead { .. } => {}
             RobotChange::PlayHere { counter } => {
                 robot.remote = false;
                 // Before the first tick it has said nothing and has nothing to forget.

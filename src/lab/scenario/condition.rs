@@ -127,6 +127,9 @@ pub enum Condition {
         #[serde(default)]
         above: Option<f32>,
     },
+    /// A thing is between `near` and `far` metres behind another on its way to a third, and between `aside.0` and `aside.1`
+    /// metres to one side of that way, whichever.
+    Behind { what: Thing, of: Thing, toward: Thing, near: f32, far: f32, aside: (f32, f32) },
     /// m/s of the ball or a robot.
     Speed {
         of: Thing,

@@ -62,6 +62,15 @@ pub enum Event {
         /// Degrees, counter-clockwise from east.
         facing: f32,
     },
+    /// The robot takes itself to be elsewhere from now on: its localisation errs by this much more, and it is not told.
+    Mislead {
+        robot: RobotId,
+        /// m
+        by: Vec2,
+        /// Degrees, counter-clockwise.
+        #[serde(default)]
+        turn: f32,
+    },
     /// Makes the robot start a role swap: who holds the first role of a pair takes the second.
     InitiateSwap { robot: RobotId, roles: Vec<(String, String)> },
 }

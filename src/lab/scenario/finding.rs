@@ -80,6 +80,18 @@ pub(super) fn find<'s>(condition: &'s Condition, scene: &'s Scene) -> Finding<'s
                 None => format!("{from} or {to} did not take part"),
             })
         }
+        Condition::Behind { what, of, toward, near, far, aside: (least, most) } => {
+            let found = behind(scene, *what, *of, *toward);
+            let holds = found.is_some_and(|(behind, aside)| {
+                (*near..=*far).contains(&behind) && (*least..=*most).contains(&aside)
+            });
+            finding(holds, move || match found {
+                Some((behind, aside)) => {
+                    format!("{what} was {behind:.2} m behind {of} and {aside:.2} m aside")
+                }
+                None => format!("{what}, {of} or {toward} did not take part"),
+            })
+        }
         Condition::Speed { of, below, above } => {
             let speed = scene.speed(*of);
             finding(speed.is_some_and(|it| within(it, *below, *above)), move || match speed {
@@ -224,6 +236,14 @@ fn contacts(team: Team, total: ContactTotal) -> String {
 
 fn distance(scene: &Scene, from: Thing, to: Thing) -> Option<f32> {
     Some(scene.position(from)?.distance(scene.position(to)?))
+}
+
+/// How far a thing is behind another on its way to a third, and how far off that way.
+fn behind(scene: &Scene, what: Thing, of: Thing, toward: Thing) -> Option<(f32, f32)> {
+    let of = scene.position(of)?;
+    let way = (scene.position(toward)? - of).try_normalize()?;
+    let offset = scene.position(what)? - of;
+    Some((-way.dot(offset), way.perp_dot(offset).abs()))
 }
 
 fn within(value: f32, below: Option<f32>, above: Option<f32>) -> bool {

@@ -318,6 +318,9 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
             let to = Pose { position: *to, heading: facing.to_radians() };
             Request::Body(BodyChange::Kidnap { robot: *robot, to })
         }
+        Event::Mislead { robot, by, turn } => {
+            Request::Robot(*robot, RobotChange::Mislead { by: *by, turn: turn.to_radians() })
+        }
         Event::InitiateSwap { robot, roles } => {
             let strategy = &plan.team(robot.team).strategy;
             let pair = |(from, to): &(String, String)| Some((role(strategy, from)?, role(strategy, to)?));

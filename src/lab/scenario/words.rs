@@ -112,6 +112,10 @@ impl Display for Condition {
                 let limits = limits("more than", *above, "less than", *below, " m");
                 write!(f, "{from} is {limits} from {to}")
             }
+            Condition::Behind { what, of, toward, near, far, aside: (least, most) } => write!(
+                f,
+                "{what} is {near} m to {far} m behind {of} on its way to {toward}, and {least} m to {most} m aside"
+            ),
             Condition::Speed { of, below, above } => {
                 write!(f, "{of} goes at {}", limits("more than", *above, "less than", *below, " m/s"))
             }
@@ -208,6 +212,9 @@ impl Display for Event {
             }
             Event::Push { robot, by } => write!(f, "{robot} is pushed by {:.2} m/s", by.length()),
             Event::Kidnap { robot, to, .. } => write!(f, "{robot} is kidnapped to {}", metres_of(*to)),
+            Event::Mislead { robot, by, .. } => {
+                write!(f, "{robot} takes itself to be {} m elsewhere", metres_of(*by))
+            }
             Event::InitiateSwap { robot, roles } => {
                 let changes = roles.iter().map(|(from, to)| format!("{from} becomes {to}"));
                 write!(f, "{robot} starts a role swap: {}", list(changes, ", "))
@@ -282,6 +289,10 @@ mod tests {
             (
                 r#"Distance(from: Ball, to: Robot("home 1"), above: 0.2, below: 0.5)"#,
                 "the ball is more than 0.2 m and less than 0.5 m from home 1",
+            ),
+            (
+                r#"Behind(what: Robot("home 3"), of: Ball, toward: Goal(Away), near: 0.5, far: 1, aside: (0.25, 1))"#,
+                "home 3 is 0.5 m to 1 m behind the ball on its way to away's goal, and 0.25 m to 1 m aside",
             ),
             (r#"Speed(of: Ball, below: 0.1)"#, "the ball goes at less than 0.1 m/s"),
             ("InZone(what: Ball, zone: PenaltyArea(Away))", "the ball is in away's penalty area"),

@@ -14,6 +14,11 @@ pub struct PoseError {
 }
 
 impl PoseError {
+    /// An error of this much, m and rad.
+    pub fn of(offset: Vec2, heading: f32) -> PoseError {
+        PoseError { offset, heading }
+    }
+
     /// A fresh error, as after a kidnap.
     pub fn drawn(localisation: &Localisation, dice: &mut Dice) -> PoseError {
         PoseError {

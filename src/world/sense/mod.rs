@@ -28,7 +28,9 @@ use crate::ids::RobotId;
 use crate::pitch::BallKind;
 use crate::rng::{Dice, Seed};
 use crate::robot::handling::Handling;
-use crate::robot::{Drive, DriveCommand, Head, OffPitch, PutDown, Robot, RobotStart, SwitchedOn, Trailer};
+use crate::robot::{
+    Drive, DriveCommand, Head, Misled, OffPitch, PutDown, Robot, RobotStart, SwitchedOn, Trailer,
+};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
 use crate::world::ball::Ball;
@@ -38,7 +40,8 @@ pub(super) fn plugin(app: &mut App) {
     app.match_component::<Eyesight>()
         .starts(|start: &RobotStart, _| Eyesight::new(&start.sensing, start.seed, start.id))
         .on(|eyesight, _: &PutDown, _| eyesight.blink())
-        .on(|eyesight, _: &SwitchedOn, _| eyesight.blink());
+        .on(|eyesight, _: &SwitchedOn, _| eyesight.blink())
+        .on(|eyesight, misled: &Misled, _| eyesight.misled = PoseError::of(misled.by, misled.turn));
     app.add_systems(Tick, (take_frames, deliver_frames, read_odometry).chain().in_set(TickSystems::Sense));
 }
 
@@ -46,6 +49,8 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(Component, Clone, Debug)]
 pub struct Eyesight {
     error: PoseError,
+    /// What a script adds to the error, in the pitch frame.
+    misled: PoseError,
     under_way: VecDeque<Frame>,
     camera_dice: Dice,
     localisation_dice: Dice,
@@ -61,6 +66,7 @@ impl Eyesight {
         };
         Eyesight {
             error,
+            misled: PoseError::default(),
             under_way: VecDeque::new(),
             camera_dice: Dice::new(seed, "camera", Some(robot)),
             localisation_dice,
@@ -106,7 +112,7 @@ fn take_frames(
     let mut scene = None;
     for (&id, robot, &pose, head, handling, mut eyesight) in &mut eyes {
         let eyesight = &mut *eyesight;
-        let team_pose = state.attacking(id.team).turn_pose(pose);
+        let team_pose = state.attacking(id.team).turn_pose(eyesight.misled.applied(pose));
         match &robot.sensing.eyes {
             Eyes::Perfect if robot.senses(&clock) => {
                 let scene = scene.get_or_insert_with(|| Surroundings::of((&kind, *ball), &bodies, &trailers));

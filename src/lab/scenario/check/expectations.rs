@@ -62,6 +62,20 @@ impl Checker<'_> {
                 self.thing(*to, &at.key("to"))?;
                 self.limits(*below, *above, Bound::LENGTH, &at)
             }
+            Condition::Behind { what, of, toward, near, far, aside: (least, most) } => {
+                let at = at.key("Behind");
+                self.thing(*what, &at.key("what"))?;
+                self.thing(*of, &at.key("of"))?;
+                self.thing(*toward, &at.key("toward"))?;
+                self.source.within(&at.key("near"), *near, Bound::PLACE)?;
+                self.source.within(&at.key("far"), *far, Bound::PLACE)?;
+                self.source.within(&at.key("aside").index(0), *least, Bound::LENGTH)?;
+                self.source.within(&at.key("aside").index(1), *most, Bound::LENGTH)?;
+                if near <= far && least <= most {
+                    return Ok(());
+                }
+                self.fault(&at, "needs `near` before `far`, and the lesser bound of `aside` first")
+            }
             Condition::Speed { of, below, above } => {
                 let at = at.key("Speed");
                 self.thing(*of, &at.key("of"))?;

@@ -43,6 +43,12 @@ impl Checker<'_> {
                 self.on_pitch(*to, &at.key("to"))?;
                 self.source.within(&at.key("facing"), *facing, Bound::HEADING)
             }
+            Event::Mislead { robot, by, turn } => {
+                let at = at.key("Mislead");
+                self.robot(*robot, &at.key("robot"))?;
+                self.source.vector_within(&at.key("by"), *by, Bound::PLACE)?;
+                self.source.within(&at.key("turn"), *turn, Bound::HEADING)
+            }
             Event::InitiateSwap { robot, roles } => {
                 self.robot(*robot, &at.key("InitiateSwap").key("robot"))?;
                 self.swap(robot.team, roles, &at.key("InitiateSwap").key("roles"))

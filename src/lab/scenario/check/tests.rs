@@ -151,6 +151,11 @@ fn the_script_is_checked() {
             r#"at: 1, what: Kidnap(robot: "home 1", to: (9, 0), facing: 0)"#,
             "Kidnap.to: (9, 0) is not on the pitch",
         ),
+        (
+            r#"at: 1, what: Mislead(robot: "home 1", by: (0, 1e9))"#,
+            "Mislead.by[1]: must be at most 1000 m, not 1e9",
+        ),
+        (r#"at: 1, what: Mislead(robot: "home 0", by: (1, 0))"#, "Mislead.robot: there is no robot `home 0`"),
         (r#"at: 1, what: Revive(robot: "home 0", memory: Lost)"#, "Revive.robot: there is no robot `home 0`"),
         (r#"at: 1, what: Partition([], ["home 1"])"#, "Partition[0]: needs at least one robot"),
         (
@@ -208,6 +213,14 @@ fn conditions_that_mean_nothing_are_faults() {
         (
             "Distance(from: Ball, to: At(0, 0), below: 1, above: 2)",
             "Distance.below: nothing is below 1 and above 2",
+        ),
+        (
+            r#"Behind(what: Robot("home 0"), of: Ball, toward: Goal(Away), near: 0, far: 1, aside: (0, 1))"#,
+            "Behind.what.Robot: there is no robot `home 0`",
+        ),
+        (
+            "Behind(what: BallAtStart, of: Ball, toward: Goal(Away), near: 2, far: 1, aside: (0, 1))",
+            "Behind: needs `near` before `far`",
         ),
         ("Speed(of: Goal(Home), below: 1)", "Speed.of: does not move"),
         ("Speed(of: Ball, below: 0)", "Speed.below: nothing is below 0"),

@@ -243,6 +243,13 @@ fn every_condition_can_hold_and_fail_and_says_what_was_seen() {
             "the ball was 0.75 m from where the ball was at the start",
         ),
         (
+            "Behind(what: At(-1, 0.5), of: Ball, toward: Goal(Away), near: 0.5, far: 1.5, aside: (0.25, 0.75))",
+            |it| it.ball = Vec2::new(1.0, 0.0),
+            "(-1, 0.5) was 2.00 m behind the ball and 0.50 m aside",
+            |_| {},
+            "(-1, 0.5) was 1.00 m behind the ball and 0.50 m aside",
+        ),
+        (
             r#"Speed(of: Robot("home 1"), above: 0.5)"#,
             |_| {},
             "home 1 went at 0.00 m/s",
