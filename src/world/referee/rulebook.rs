@@ -59,7 +59,7 @@ pub struct RuleBook {
     pub removal_outlasts_play: bool,
     /// Where a removed robot returns.
     pub returns: ReturnPlace,
-    /// Metres from a spot to the centre of a robot below which the spot is taken; also the room kept between a
+    /// Metres between the centre of a robot and the place at which the ball is put down; also the room kept between a
     /// returning robot and the wall. ASSUMPTION: half a robot of the largest size and a ball's radius.
     pub spot_clearance: f32,
 }

@@ -1,18 +1,23 @@
-//! No progress: a ball that stays about where it is goes to the nearest free spot.
+//! No progress: a ball that stays about where it is goes to the nearest spot, whoever waits there.
+//!
+//! A robot on the spot is in luck (Hammerheads, section V-B): the ball comes down beside it.
 //!
 //! The clock restarts when the ball is [`RuleBook::no_progress_distance`](crate::world::referee::rulebook::RuleBook) away
 //! from where it was when the clock started. Between two samples the ball is taken to roll straight, so that the clock
 //! starts at the same places for every step size.
 
+use std::f32::consts::TAU;
+
 use bevy::prelude::Vec2;
 
+use crate::geometry::unit;
 use crate::world::referee::decision::{Decision, PlacementReason};
 use crate::world::referee::phase::Phase;
-use crate::world::referee::rulebook::{RuleBook, Stuck};
+use crate::world::referee::rulebook::Stuck;
 use crate::world::referee::rules::observation::{Laws, Observation, is_over, placed_ball, standing};
 use crate::world::referee::state::{Anchor, MatchState};
 
-/// Moves a stuck ball. While all spots are taken it stays, and goes as soon as one is free.
+/// Moves a stuck ball. While there is no room at any spot it stays, and goes as soon as there is.
 pub(super) fn no_progress(
     laws: &Laws,
     observation: &Observation,
@@ -34,7 +39,7 @@ pub(super) fn no_progress(
     let limit = laws.book.no_progress_seconds;
     if is_over(anchor.seconds, limit) {
         let robots: Vec<Vec2> = standing(observation, state, decisions).collect();
-        if let Some(at) = free_spot(&laws.pitch.penalty_spots, ball, &robots, laws.book) {
+        if let Some(at) = place_at_spot(&laws.pitch.penalty_spots, ball, &robots, laws) {
             let beyond = (anchor.seconds - f64::from(limit)).clamp(0.0, state.played);
             anchor = Anchor { at, seconds: beyond };
             decisions.push(Decision::BallPlaced { at, reason: PlacementReason::NoProgress });
@@ -43,19 +48,46 @@ pub(super) fn no_progress(
     state.anchor = Some(anchor);
 }
 
-/// The free spot nearest to the ball; of two as near, the first of the pitch's list. A spot on which the ball practically
-/// lies is the last choice, as moving it there would be no progress.
-pub(super) fn free_spot(spots: &[Vec2], ball: Vec2, robots: &[Vec2], book: &RuleBook) -> Option<Vec2> {
-    let is_free = |spot: &Vec2| robots.iter().all(|robot| robot.distance(*spot) >= book.spot_clearance);
+/// Where a stuck ball goes: to the spot nearest to it; of two as near, the first of the pitch's list. A spot on which the ball
+/// practically lies is the last choice, as moving it there would be no progress. `None` while there is room at none.
+pub(super) fn place_at_spot(spots: &[Vec2], ball: Vec2, robots: &[Vec2], laws: &Laws) -> Option<Vec2> {
     let order = |spot: &Vec2| {
         let distance = spot.distance(ball);
-        (distance < book.no_progress_distance, distance)
+        (distance < laws.book.no_progress_distance, distance)
     };
-    let free = spots.iter().copied().filter(is_free);
-    free.min_by(|a, b| {
+    let mut spots = spots.to_vec();
+    spots.sort_by(|a, b| {
         let ((a_here, a), (b_here, b)) = (order(a), order(b));
         a_here.cmp(&b_here).then(a.total_cmp(&b))
-    })
+    });
+    spots.into_iter().find_map(|spot| beside(spot, robots, laws))
+}
+
+/// The place on the pitch nearest to a spot that is clear of all robots: the spot itself, or one on a ring around it.
+fn beside(spot: Vec2, robots: &[Vec2], laws: &Laws) -> Option<Vec2> {
+    let room = laws.book.spot_clearance;
+    let half = laws.pitch.half_size() - laws.ball_radius;
+    let is_clear = |place: &Vec2| {
+        let is_on_pitch = place.abs().cmple(half).all() || *place == spot;
+        is_on_pitch && robots.iter().all(|robot| robot.distance(*place) >= room)
+    };
+    let rings = (0..=RINGS).map(|ring| 2.0 * room * f32::from(ring) / f32::from(RINGS));
+    // From where the nearest robot is not.
+    let nearest = robots.iter().min_by(|a, b| a.distance(spot).total_cmp(&b.distance(spot)));
+    let away = nearest.and_then(|robot| (spot - *robot).try_normalize()).unwrap_or(Vec2::X);
+    let on_ring = |radius: f32| (0..DIRECTIONS).map(move |step| spot + radius * direction(step).rotate(away));
+    rings.flat_map(on_ring).find(is_clear)
+}
+
+/// Rings around a spot that are tried, out to twice the clearance.
+const RINGS: u8 = 32;
+/// Places that are tried on each ring.
+const DIRECTIONS: u8 = 24;
+
+/// By turns to the left and to the right, ever farther from straight ahead.
+fn direction(step: u8) -> Vec2 {
+    let side = if step % 2 == 1 { 1.0 } else { -1.0 };
+    unit(side * f32::from(step.div_ceil(2)) * TAU / f32::from(DIRECTIONS))
 }
 
 impl Anchor {
@@ -90,7 +122,6 @@ fn exit_share(start: Vec2, way: Vec2, radius: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use crate::geometry::unit;
     use crate::world::referee::rules::table::{KICK_OFF_SECONDS, Table};
 
     use super::*;
@@ -109,12 +140,21 @@ mod tests {
     }
 
     #[test]
-    fn a_taken_spot_is_left_out() {
-        let mut table = Table::playing(60);
-        table.ball = Vec2::new(4.3, 2.3);
-        table.robots[0].1 = Vec2::new(2.5, 1.0);
-        table.run(10.1);
-        assert_eq!(table.ball, Vec2::new(2.5, 0.0));
+    fn beside_a_robot_that_waits_on_the_nearest_spot_the_ball_comes_down_with_the_least_shift() {
+        let (spot, mut table) = (Vec2::new(2.5, 1.25), Table::playing(60));
+        let room = table.book.spot_clearance;
+        for waits_at in [spot, spot - Vec2::new(0.0, 0.3 * room), spot + Vec2::new(0.5 * room, 0.1)] {
+            table.ball = Vec2::new(4.3, 2.3);
+            table.robots[0].1 = waits_at;
+            table.run(10.1);
+            let (clear, shift) = (table.ball.distance(waits_at), table.ball.distance(spot));
+            assert!(clear >= room, "{clear} m from the robot");
+            let least = room - waits_at.distance(spot);
+            assert!(
+                shift < least + 2.0 * room / f32::from(RINGS) + 1e-4,
+                "shifted by {shift}, least {least}"
+            );
+        }
     }
 
     #[test]
@@ -147,15 +187,15 @@ mod tests {
     }
 
     #[test]
-    fn while_all_spots_are_taken_the_ball_waits() {
+    fn while_there_is_no_room_at_any_spot_the_ball_waits() {
         let mut table = Table::playing(60);
-        table.pitch.penalty_spots = vec![Vec2::ZERO, Vec2::X];
-        table.robots[0].1 = Vec2::ZERO;
-        table.robots[1].1 = Vec2::X;
+        table.pitch.penalty_spots = vec![Vec2::ZERO];
+        let clearance = std::mem::replace(&mut table.book.spot_clearance, 40.0);
+        table.robots[0].1 = Vec2::new(0.0, 1.0);
         table.ball = Vec2::new(3.0, 0.0);
         table.run(15.0);
         assert_eq!(table.ball.x, 3.0);
-        table.robots[0].1 = Vec2::new(0.0, 2.0);
+        table.book.spot_clearance = clearance;
         table.run(0.1);
         assert_eq!(table.ball, Vec2::ZERO);
     }

@@ -3,7 +3,7 @@
 
 use bevy::prelude::Vec2;
 
-use super::progress::free_spot;
+use super::progress::place_at_spot;
 use crate::geometry::Attacking;
 use crate::ids::Team;
 use crate::world::referee::decision::{Decision, PlacementReason, RemovalReason};
@@ -75,7 +75,7 @@ fn clear_the_ball(
             anchor = Anchor { at: ball, seconds: beyond };
         } else {
             let robots: Vec<Vec2> = standing(observation, state, decisions).collect();
-            if let Some(at) = free_spot(&[Vec2::ZERO], ball, &robots, laws.book) {
+            if let Some(at) = place_at_spot(&[Vec2::ZERO], ball, &robots, laws) {
                 decisions.push(Decision::BallPlaced { at, reason: PlacementReason::NoProgress });
                 anchor = Anchor { at, seconds: beyond };
             }
