@@ -15,8 +15,8 @@ use crate::pitch::BallKind;
 use crate::pitch::Pitch;
 use crate::protocol::policy::{ColumnValues, Knowledge, Player, PolicyState, Valued};
 use crate::protocol::role_swap::{
-    Assignment, AttemptPhase, Effect, Hardened, Input, Outcome, Paper, Reassignment, RoleIndex, RoleSwap,
-    Timer,
+    Assignment, AttemptPhase, Effect, Hardened, Input, Message, Outcome, Paper, Reassignment, RoleIndex,
+    RoleSwap, Timer,
 };
 use crate::rng::{Dice, Seed};
 use crate::robot::{OffPitch, Restart, Robot};
@@ -32,6 +32,8 @@ pub struct Swapping {
     deadlines: [Option<u64>; 3],
     /// It starts no attempt before this tick.
     earliest: u64,
+    /// Whether the robot has been reassigned since it gave its lock.
+    reassigned: bool,
     policy: PolicyState,
     /// What it should broadcast of its values, and the column that it wishes for.
     pub values: Option<(ColumnValues, Option<u8>)>,
@@ -62,12 +64,21 @@ impl Swapping {
             machine,
             deadlines: [None; 3],
             earliest: 0,
+            reassigned: false,
             policy: PolicyState::default(),
             values: None,
             planned: None,
             asked: None,
             dice: Dice::new(seed, "back-off", Some(id)),
         })
+    }
+
+    /// After an attempt that failed, everybody who took part waits a short time before another one, in case two attempts ran
+    /// into each other (section VII-A.1).
+    fn back_off(&mut self, timers: &Timers, clock: &Clock) {
+        let (least, most) = timers.back_off;
+        let wait = least + (most - least) * self.dice.uniform();
+        self.earliest = self.earliest.max(clock.tick + clock.ticks(wait));
     }
 
     /// The robot was switched off and on again.
@@ -137,7 +148,12 @@ impl SwapperItem<'_, '_> {
         for timer in [Timer::Lock, Timer::Locks, Timer::Acks] {
             let deadline = &mut self.swapping.deadlines[timer as usize];
             if deadline.take_if(|deadline| clock.tick >= *deadline).is_some() {
+                let was_locked = self.swapping.machine.lock().is_some();
                 self.step(Input::TimeOut(timer), timers, clock);
+                // It took part in an attempt that came to nothing.
+                if timer == Timer::Lock && was_locked && !self.swapping.reassigned {
+                    self.swapping.back_off(timers, clock);
+                }
             }
         }
     }
@@ -225,7 +241,14 @@ impl SwapperItem<'_, '_> {
         let swapping = &mut *self.swapping;
         for effect in swapping.machine.step(input) {
             match effect {
-                Effect::Send { to, message } => self.client.send(to, &TeamMessage::RoleSwap(message)),
+                Effect::Send { to, message } => {
+                    match message {
+                        Message::AckLock { .. } => swapping.reassigned = false,
+                        Message::AckSwap { .. } => swapping.reassigned = true,
+                        Message::Lock { .. } | Message::Swap { .. } => {}
+                    }
+                    self.client.send(to, &TeamMessage::RoleSwap(message));
+                }
                 Effect::Start(timer) => {
                     let seconds = match timer {
                         Timer::Lock => timers.lock,
@@ -241,11 +264,7 @@ impl SwapperItem<'_, '_> {
                         self.team_model.roles = planned;
                     }
                 }
-                Effect::Finished(_) => {
-                    let (least, most) = timers.back_off;
-                    let wait = least + (most - least) * swapping.dice.uniform();
-                    swapping.earliest = clock.tick + clock.ticks(wait);
-                }
+                Effect::Finished(_) => swapping.back_off(timers, clock),
             }
         }
     }
