@@ -12,6 +12,7 @@ mod fairness;
 mod first_messages;
 mod network;
 mod numbers;
+mod paper_relations;
 mod play;
 mod policies;
 mod radio;
