@@ -15,7 +15,7 @@ use crate::support::assets;
 
 /// Those that always find something to decide. The case-based rule waits for a halfback that loses the ball near the opponents'
 /// goal, which does not happen in every match.
-const BUSY: [&str; 5] = ["CsFreiburg()", "Art()", "Rmit()", "ItalianGolem()", "Optimal()"];
+const BUSY: [&str; 4] = ["CsFreiburg()", "Art()", "Rmit()", "Optimal()"];
 
 fn plan(policy: &str, seed: u64) -> MatchPlan {
     let choice =

@@ -27,6 +27,7 @@ impl fmt::Display for Feature {
             Feature::SuperiorHasBall => f.write_str("a team mate of higher rank has the ball"),
             Feature::HasBooked => f.write_str("has booked the ball"),
             Feature::TeammateHasBooked => f.write_str("a team mate has booked the ball"),
+            Feature::MayExecute(action) => write!(f, "may {action}"),
             Feature::HoldsBall => f.write_str("holds the ball"),
             Feature::GoalieIsOut => f.write_str("the goalie is out"),
             Feature::After(seconds) => write!(f, "after {seconds} s"),

@@ -7,8 +7,9 @@
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::teamwork::Mechanism;
+use super::mechanism::Mechanism;
 use crate::geometry::Zone;
+use crate::protocol::arbitration::PlayerAction;
 use crate::strategy::role::RoleRef;
 
 /// One place on the field, or nowhere while it is unknown.
@@ -189,6 +190,8 @@ pub enum Feature {
     HasBooked,
     /// A team mate has booked the ball, and has renewed the booking recently.
     TeammateHasBooked,
+    /// Of all robots of the team it is this one that may execute the action now.
+    MayExecute(PlayerAction),
     /// The ball is held under the robot's own chin.
     HoldsBall,
     /// The goalie has said that it left its area, and not that it is back.

@@ -9,6 +9,7 @@ mod desirability;
 mod display;
 mod file;
 pub mod language;
+mod mechanism;
 mod pieces;
 mod reading;
 mod resolve;

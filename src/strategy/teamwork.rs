@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use struct_patch::{Merge, Patch};
 
 use crate::data::{Bound, Fault, Validate, check_all, ensure};
+use crate::protocol::arbitration::ActionArbitration;
 use crate::protocol::policy::{Policy, SwapRoles};
 use crate::protocol::role_swap::{Ingredient, PaperRules, RoleIndex};
 use crate::strategy::role::RoleRef;
@@ -14,81 +15,7 @@ pub use crate::strategy::team_ball::{BallBooking, BidBy, MapFusion};
 use crate::strategy::team_ball::{BallBookingFile, MapFusionFile};
 pub use timing::{MessageTiming, MessageTimingFile, TeamWatch, TeamWatchFile};
 
-/// A mechanism of collaboration or coordination, each of which can be switched off.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum Mechanism {
-    /// Robots tell each other position, claim and goalie news (figure 3). Without it nothing goes on air but role swaps.
-    Messages,
-    /// Team mates are avoided at all (section V-A).
-    TeammateAvoidance,
-    /// Only those who rank above are avoided where it matters; without it everyone avoids everyone (section VI-A).
-    HierarchicalAvoidance,
-    /// A robot that acquires the ball claims it (section VI-B).
-    Claims,
-    /// Homebases depend on where the team mates are; without it they are the nearest (section V-B).
-    HomebaseSelection,
-    /// The halfback stands in for a goalie that is out (figure 4).
-    GoalieSupport,
-    /// A team mate follows the robot with the ball (figure 6).
-    OffensiveSupport,
-    /// The floater defends while the halfback is away with the ball (section VI-D).
-    FloaterDropsBack,
-    /// Roles are swapped (section VII).
-    RoleSwap,
-    /// Robots report the ball that they see (TeamChaos, section 1).
-    BallReports,
-    /// Only the robot that has booked the ball goes for it (TeamChaos, section 4).
-    BallBooking,
-}
-
-impl Mechanism {
-    /// Every mechanism.
-    pub const ALL: [Mechanism; 11] = [
-        Mechanism::Messages,
-        Mechanism::TeammateAvoidance,
-        Mechanism::HierarchicalAvoidance,
-        Mechanism::Claims,
-        Mechanism::HomebaseSelection,
-        Mechanism::GoalieSupport,
-        Mechanism::OffensiveSupport,
-        Mechanism::FloaterDropsBack,
-        Mechanism::RoleSwap,
-        Mechanism::BallReports,
-        Mechanism::BallBooking,
-    ];
-
-    fn bit(self) -> u16 {
-        1 << self as u16
-    }
-}
-
-/// The mechanisms that are on. By default robots avoid the team mates that they see, and that is all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mechanisms(u16);
-
-impl Default for Mechanisms {
-    fn default() -> Mechanisms {
-        Mechanisms::from_iter([Mechanism::TeammateAvoidance])
-    }
-}
-
-impl Mechanisms {
-    /// Whether one is on.
-    pub fn has(self, mechanism: Mechanism) -> bool {
-        self.0 & mechanism.bit() != 0
-    }
-
-    /// The same with one switched off.
-    pub fn without(self, mechanism: Mechanism) -> Mechanisms {
-        Mechanisms(self.0 & !mechanism.bit())
-    }
-}
-
-impl FromIterator<Mechanism> for Mechanisms {
-    fn from_iter<I: IntoIterator<Item = Mechanism>>(mechanisms: I) -> Mechanisms {
-        Mechanisms(mechanisms.into_iter().fold(0, |all, mechanism| all | mechanism.bit()))
-    }
-}
+pub use super::mechanism::{Mechanism, Mechanisms};
 
 /// Whom a robot takes for its team mates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -140,6 +67,8 @@ pub struct TeamworkFile {
     pub ball_booking: Option<BallBookingFile>,
     /// How ball reports become one place.
     pub global_map: MapFusionFile,
+    /// How actions are given out.
+    pub action_arbitration: Option<ActionArbitration>,
 }
 
 impl TeamworkFile {
@@ -158,6 +87,7 @@ impl TeamworkFile {
             role_swap: base.role_swap.map(swap).or(self.role_swap),
             ball_booking: base.ball_booking.map(booking).or(self.ball_booking),
             global_map: base.global_map.merge(self.global_map),
+            action_arbitration: self.action_arbitration.or(base.action_arbitration),
         }
     }
 }
@@ -272,6 +202,8 @@ pub struct Teamwork {
     pub ball_booking: Option<BallBooking>,
     /// How ball reports become one place.
     pub global_map: MapFusion,
+    /// How actions are given out.
+    pub action_arbitration: Option<ActionArbitration>,
 }
 
 /// How roles are swapped, with every name looked up.
@@ -300,6 +232,7 @@ impl Default for Teamwork {
             role_swap: None,
             ball_booking: None,
             global_map: MapFusion::default(),
+            action_arbitration: None,
         }
     }
 }
@@ -320,15 +253,6 @@ impl Teamwork {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn mechanisms_are_switched_one_by_one() {
-        let all: Mechanisms = Mechanism::ALL.into_iter().collect();
-        for off in Mechanism::ALL {
-            let rest = all.without(off);
-            assert!(Mechanism::ALL.into_iter().all(|mechanism| rest.has(mechanism) == (mechanism != off)));
-        }
-    }
 
     #[test]
     fn ranks_decide_who_outranks_whom() {

@@ -100,6 +100,8 @@ pub enum Dependency {
     BallReports,
     /// [`Mechanism::BallBooking`].
     BallBooking,
+    /// [`Mechanism::ActionArbitration`].
+    ActionArbitration,
     /// That roles are swapped by the hardened protocol and not by the paper's.
     HardenedSwap,
 }
@@ -119,6 +121,7 @@ impl Dependency {
             Dependency::RoleSwap => Mechanism::RoleSwap,
             Dependency::BallReports => Mechanism::BallReports,
             Dependency::BallBooking => Mechanism::BallBooking,
+            Dependency::ActionArbitration => Mechanism::ActionArbitration,
             Dependency::HardenedSwap => return None,
         })
     }

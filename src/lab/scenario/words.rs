@@ -237,6 +237,7 @@ impl Display for Dependency {
             Dependency::RoleSwap => "role swaps",
             Dependency::BallReports => "ball reports",
             Dependency::BallBooking => "ball booking",
+            Dependency::ActionArbitration => "arbitration over actions",
             Dependency::HardenedSwap => "the hardened role swap",
         })
     }

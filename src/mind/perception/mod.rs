@@ -240,6 +240,7 @@ impl Perception<'_> {
             }
             Feature::HasBooked => self.team_model.booking == BookingStatus::Own,
             Feature::TeammateHasBooked => matches!(self.team_model.booking, BookingStatus::Mate(_)),
+            Feature::MayExecute(action) => self.team_model.action == Some(*action),
             Feature::HoldsBall => self.holds_ball,
             Feature::GoalieIsOut => {
                 self.teamwork.has(Mechanism::GoalieSupport) && self.team_model.goalie.is_out

@@ -3,6 +3,7 @@
 //! A robot listens to what came in, takes its part in role swaps, claims the ball if it is its to claim, and says what the
 //! others should know. What it wants to say waits in its outbox for the Transmit stage.
 
+mod arbitration;
 mod bid;
 mod booking;
 mod claims;
@@ -59,6 +60,7 @@ pub(super) fn plugin(app: &mut App) {
         swap::swap_roles,
         talk::claim_ball,
         booking::book_ball,
+        arbitration::arbitrate,
         talk::send_news,
         listen::take_messages,
     );

@@ -172,7 +172,7 @@ impl SwapperItem<'_, '_> {
             me: self.id.number,
             players: &players,
             ball: self.model.ball.map(|ball| ball.position),
-            tight_control: self.has_tight_control(ball_radius),
+            tight_control: has_tight_control(self.model, self.robot, ball_radius),
             half_length: pitch.half_size().x,
             goal: pitch.goal_centre(),
             now: clock.now() as f32,
@@ -229,14 +229,6 @@ impl SwapperItem<'_, '_> {
         players
     }
 
-    fn has_tight_control(&self, ball_radius: f32) -> bool {
-        self.model.ball.is_some_and(|ball| {
-            let local = self.model.pose.to_local(ball.position);
-            let gap = local.x - self.robot.kind.body.length / 2.0 - ball_radius;
-            local.x > 0.0 && gap <= CONTROL.0 && local.y.abs() <= CONTROL.1
-        })
-    }
-
     fn step(&mut self, input: Input, timers: &Timers, clock: &Clock) {
         let swapping = &mut *self.swapping;
         for effect in swapping.machine.step(input) {
@@ -282,6 +274,15 @@ impl SwapperItem<'_, '_> {
             None => self.team_model.note_role(self.id.number, role),
         }
     }
+}
+
+/// Whether a robot believes that it has the ball in its scoop.
+pub(super) fn has_tight_control(model: &WorldModel, robot: &Robot, ball_radius: f32) -> bool {
+    model.ball.is_some_and(|ball| {
+        let local = model.pose.to_local(ball.position);
+        let gap = local.x - robot.kind.body.length / 2.0 - ball_radius;
+        local.x > 0.0 && gap <= CONTROL.0 && local.y.abs() <= CONTROL.1
+    })
 }
 
 /// A ball this near to the body, and this far off its middle at most, is under tight control, m.

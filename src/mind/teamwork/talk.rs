@@ -192,6 +192,6 @@ impl SpeakerItem<'_, '_> {
 }
 
 /// The time on a robot's clock. All clocks agree.
-fn milliseconds(clock: &Clock) -> u32 {
+pub(super) fn milliseconds(clock: &Clock) -> u32 {
     (clock.now() * 1000.0) as u32
 }

@@ -10,6 +10,7 @@ use super::sight::Carrier;
 use crate::clock::Clock;
 use crate::comms::messages::Values;
 use crate::ids::PlayerNumber;
+use crate::protocol::arbitration::{Bid, PlayerAction};
 use crate::protocol::policy::Valued;
 use crate::protocol::role_swap::{Assignment, RoleIndex};
 use crate::robot::{Restart, SwitchedOn};
@@ -28,12 +29,14 @@ pub struct TeamModel {
     pub carrier: Option<Carrier>,
     /// Where the goalie is.
     pub goalie: GoalieWhereabouts,
-    /// What the team mates said last that roles are worth to them, and the ticks in which that was heard.
+    /// What the team mates said last that roles or actions are worth to them, and the ticks in which that was heard.
     pub values: SmallVec<[(PlayerNumber, Values, u64); 4]>,
     /// Where the ball is by all that was heard of it.
     pub map: GlobalMap,
     /// The robot that has booked the ball, as this robot believes.
     pub booking: BookingStatus,
+    /// The action that the robot may execute.
+    pub action: Option<PlayerAction>,
     /// If the robot is the goalie.
     pub border: BorderWatch,
     /// When the robot itself said what.
@@ -63,6 +66,8 @@ pub struct LastSent {
     pub have_ball: Option<u64>,
     /// The tick of its last ball report.
     pub ball: Option<u64>,
+    /// The tick in which it said last what actions are worth to it.
+    pub values: Option<u64>,
 }
 
 impl TeamModel {
@@ -82,6 +87,7 @@ impl TeamModel {
             values: SmallVec::new(),
             map: GlobalMap::default(),
             booking: BookingStatus::default(),
+            action: None,
             border: BorderWatch::default(),
             last_sent: LastSent::default(),
             announce: false,
@@ -98,8 +104,17 @@ impl TeamModel {
 
     pub(super) fn values_of(&self, number: PlayerNumber, clock: &Clock) -> Option<Valued> {
         let (_, said, heard) = self.values.iter().find(|(from, ..)| *from == number)?;
-        let age = clock.tick.saturating_sub(*heard) as f32 * clock.dt;
+        let age = clock.seconds_since(*heard);
         Some(Valued { values: said.values.iter().copied().collect(), wish: said.wish, age })
+    }
+
+    /// What the team mates said last that actions are worth to them.
+    pub(super) fn bids<'a>(&'a self, clock: &'a Clock) -> impl Iterator<Item = Bid> + 'a {
+        self.values.iter().map(|(number, said, heard)| Bid {
+            number: *number,
+            values: said.values.iter().copied().collect(),
+            age: clock.seconds_since(*heard),
+        })
     }
 
     /// The team mate that is believed to play a role.

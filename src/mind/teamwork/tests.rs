@@ -7,6 +7,7 @@ use crate::clock::Clock;
 use crate::comms::messages::{Inbox, Received, TeamMessage, Values};
 use crate::data::{AssetFolder, AssetKind};
 use crate::ids::{RobotId, Team};
+use crate::protocol::arbitration::Bid;
 use crate::protocol::role_swap::{Assignment, AttemptPhase};
 use crate::rng::Seed;
 use crate::robot::{Health, Robot, RobotFailure};
@@ -37,6 +38,18 @@ fn values_grow_old() {
     let known = team.values_of(2, &clock).expect("robot 2 told them");
     assert!((known.age - 0.5).abs() < 1e-5 && known.wish == Some(1));
     assert_eq!(team.values_of(3, &clock), None);
+}
+
+#[test]
+fn what_actions_are_worth_to_team_mates_is_known_with_its_age() {
+    let mut team = model();
+    let values = Values { time: 5, robot: 2, values: vec![0.0, 1.5, 0.5, 0.25], wish: None };
+    team.values.push((2, values, 60));
+    let clock = Clock { tick: 120, ..Clock::new(60.0) };
+    let bids: Vec<Bid> = team.bids(&clock).collect();
+    assert_eq!(bids.len(), 1);
+    assert_eq!((bids[0].number, &bids[0].values[..]), (2, &[0.0, 1.5, 0.5, 0.25][..]));
+    assert!((bids[0].age - 1.0).abs() < 1e-5);
 }
 
 #[test]

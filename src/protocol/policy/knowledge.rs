@@ -20,7 +20,7 @@ pub struct SwapRoles {
 
 /// What a role of the cast is for. Also the columns of broadcast values, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Duty {
+pub(in crate::protocol) enum Duty {
     Forward,
     Floater,
     Halfback,
@@ -93,7 +93,7 @@ pub struct Valued {
     pub age: f32,
 }
 
-/// What each role, or each action, would be worth in one robot's hands.
+/// What each role would be worth in one robot's hands.
 pub type ColumnValues = SmallVec<[f32; 4]>;
 
 /// What a robot remembers from one decision to the next.

@@ -1,20 +1,20 @@
 //! When to swap roles, and how: policies after the teams that the Hammerheads paper describes (sections II and VII-B).
 //!
 //! A policy only looks and decides, without memory but for a small [`PolicyState`]; carrying a decision out over a bad radio
-//! is left to [`crate::protocol::role_swap`], with which any of them works. Only the robots of a [`SwapRoles`] swap, never the
+//! is left to [`crate::protocol::role_swap`], with which any of them works. Italian Golem, the fourth team of section II, gives
+//! out single actions and no roles: [`crate::protocol::arbitration`]. Only the robots of a [`SwapRoles`] swap, never the
 //! goalie. Positions are metres in the team frame, times seconds, and ties go to the lower number.
 //!
 //! | policy | who proposes a swap |
 //! |---|---|
 //! | case based | the halfback that has just lost the ball |
 //! | CS Freiburg, ART | the robot that wants another role, for itself |
-//! | RMIT, Italian Golem | the robot that gains the most important role that changes hands |
+//! | RMIT | the robot that gains the most important role that changes hands |
 //! | optimal | the robot with the lowest number |
 
 mod art;
 mod case_based;
 mod cs_freiburg;
-mod italian_golem;
 mod knowledge;
 mod members;
 mod optimal;
@@ -30,10 +30,11 @@ use crate::protocol::role_swap::Reassignment;
 pub use art::Art;
 pub use case_based::{CaseBased, ClosestBecomesForward};
 pub use cs_freiburg::CsFreiburg;
-pub use italian_golem::ItalianGolem;
+pub(in crate::protocol) use knowledge::Duty;
 pub use knowledge::{ColumnValues, Knowledge, Player, PolicyState, SwapRoles, Valued};
 pub use optimal::Optimal;
 pub use places::Places;
+pub(in crate::protocol) use places::nearness;
 pub use rmit::Rmit;
 
 /// How a team decides that roles should be swapped, with the constants of the rule.
@@ -50,8 +51,6 @@ pub enum Policy {
     Art(Art),
     /// As RMIT United did.
     Rmit(Rmit),
-    /// As Italian Golem did.
-    ItalianGolem(ItalianGolem),
     /// The assignment with the least cost in all.
     Optimal(Optimal),
 }
@@ -75,7 +74,6 @@ impl Policy {
             Policy::CsFreiburg(policy) => policy.decide(cast, knowledge),
             Policy::Art(policy) => policy.decide(cast, knowledge),
             Policy::Rmit(policy) => policy.decide(cast, knowledge),
-            Policy::ItalianGolem(policy) => policy.decide(cast, knowledge),
             Policy::Optimal(policy) => policy.decide(cast, knowledge),
         }?;
         state.unrest = Some(knowledge.now);
@@ -88,7 +86,6 @@ impl Policy {
         match self {
             Policy::CsFreiburg(policy) => policy.values(cast, knowledge),
             Policy::Art(policy) => Some((policy.values(cast, knowledge)?, None)),
-            Policy::ItalianGolem(policy) => Some((policy.values(cast, knowledge)?, None)),
             Policy::CaseBased(_)
             | Policy::ClosestBecomesForward(_)
             | Policy::Rmit(_)
@@ -103,7 +100,6 @@ impl Policy {
             Policy::CsFreiburg(policy) => policy.rest,
             Policy::Art(policy) => policy.rest,
             Policy::Rmit(policy) => policy.rest,
-            Policy::ItalianGolem(policy) => policy.rest,
             Policy::Optimal(policy) => policy.rest,
         }
     }
@@ -117,7 +113,6 @@ impl Validate for Policy {
             Policy::CsFreiburg(policy) => policy.validate(),
             Policy::Art(policy) => policy.validate(),
             Policy::Rmit(policy) => policy.validate(),
-            Policy::ItalianGolem(policy) => policy.validate(),
             Policy::Optimal(policy) => policy.validate(),
         }
     }

@@ -29,7 +29,7 @@ impl Default for Places {
 
 impl Places {
     /// How far it is from a point to the place of a duty, in metres.
-    pub(super) fn distance(&self, from: Vec2, duty: Duty, ball: Vec2, goal: Vec2) -> f32 {
+    pub(in crate::protocol) fn distance(&self, from: Vec2, duty: Duty, ball: Vec2, goal: Vec2) -> f32 {
         let ahead = (goal - ball).normalize_or(Vec2::X);
         match duty {
             Duty::Forward => from.distance(ball - ahead * self.standoff),
@@ -54,7 +54,7 @@ impl Validate for Places {
 }
 
 /// The value of being so many metres away: 1 at no distance, a half at `half` metres, 0 at infinity.
-pub(super) fn nearness(distance: f32, half: f32) -> f32 {
+pub(in crate::protocol) fn nearness(distance: f32, half: f32) -> f32 {
     half / (half + distance)
 }
 

@@ -51,6 +51,18 @@ impl Roles<'_> {
             booking.apply(file);
             self.source.locate(&at.key("ball_booking"), booking.validate())?;
         }
+        let mut action_arbitration = file.action_arbitration;
+        if let Some(rules) = &action_arbitration {
+            self.source.locate(&at.key("action_arbitration"), rules.validate())?;
+        }
+        if mechanisms.has(Mechanism::ActionArbitration) {
+            action_arbitration.get_or_insert_default();
+            if mechanisms.has(Mechanism::RoleSwap) {
+                let message =
+                    "ActionArbitration and RoleSwap broadcast different values: a team has one of them";
+                return Err(self.source.error_at(&at.key("mechanisms"), message));
+            }
+        }
         Ok(Teamwork {
             mechanisms,
             teammates_by: file.teammates_by.unwrap_or_default(),
@@ -62,6 +74,7 @@ impl Roles<'_> {
             role_swap: role_swap.transpose()?.filter(|_| mechanisms.has(Mechanism::RoleSwap)),
             ball_booking: ball_booking.filter(|_| mechanisms.has(Mechanism::BallBooking)),
             global_map,
+            action_arbitration: action_arbitration.filter(|_| mechanisms.has(Mechanism::ActionArbitration)),
         })
     }
 

@@ -156,6 +156,14 @@ fn every_number_has_a_bound() {
         ("pitch: (1e-30, 5)", "pitch[0]: must be at least 1 m, not 1e-30"),
         ("teamwork: (talk: (position_every: 1e30))", "position_every: must be at most 86400 s, not 1e30"),
         ("teamwork: (talk: (claim_radius: 1e30))", "claim_radius: must be at most 1000 m, not 1e30"),
+        (
+            "teamwork: (action_arbitration: (max_age: 1e30))",
+            "teamwork.action_arbitration.max_age: must be at most 86400 s, not 1e30",
+        ),
+        (
+            "teamwork: (mechanisms: [ActionArbitration, RoleSwap])",
+            "teamwork.mechanisms: ActionArbitration and RoleSwap broadcast different values: a team has one of them",
+        ),
         ("teamwork: (ball_booking: (timeout: 1e30))", "timeout: must be at most 86400 s, not 1e30"),
     ] {
         let error = read(&with(pieces)).unwrap_err();

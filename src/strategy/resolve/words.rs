@@ -159,6 +159,7 @@ impl Resolver<'_> {
             | Feature::SuperiorHasBall
             | Feature::HasBooked
             | Feature::TeammateHasBooked
+            | Feature::MayExecute(_)
             | Feature::HoldsBall
             | Feature::GoalieIsOut => {}
             Feature::InRole(role) => self.role_ref(role, at)?,

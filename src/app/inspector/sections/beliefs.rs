@@ -41,6 +41,11 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
              last heard so, and how often the ball was booked again",
         );
     }
+    if let Some(action) = robot.of.team_model.action {
+        table::line(ui, "it may", action.to_string()).on_hover_text(
+            "Of all robots of its team it is this one that may execute the action, as it believes",
+        );
+    }
     let reports: Vec<String> = (robot.of.team_model.map.iter())
         .map(|report| {
             let [x, y] = coordinates(report.position);

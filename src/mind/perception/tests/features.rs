@@ -1,6 +1,8 @@
 //! The statements.
 
 use super::*;
+use crate::protocol::arbitration::PlayerAction;
+use crate::strategy::language::Feature::MayExecute;
 
 const BLIND: fn() -> Situation = || Situation::at(0.0, 0.0, 0.0);
 
@@ -142,6 +144,15 @@ fn a_ball_is_in_the_scoop_up_to_a_gap_ahead_and_a_distance_aside() {
     assert!(scoop(0.05, 0.0), "believed to be inside the body");
     assert!(!scoop(-0.05, 0.0) && !scoop(-0.25, 0.0), "behind the middle");
     assert!(!holds(&BLIND(), BallInScoop { gap: 9.0, aside: 9.0 }));
+}
+
+#[test]
+fn a_robot_may_execute_the_one_action_that_it_was_granted() {
+    let mut here = BLIND();
+    assert!(!holds(&here, MayExecute(PlayerAction::Push)));
+    here.team_model.action = Some(PlayerAction::Push);
+    assert!(holds(&here, MayExecute(PlayerAction::Push)));
+    assert!(!holds(&here, MayExecute(PlayerAction::Acquire)));
 }
 
 #[test]

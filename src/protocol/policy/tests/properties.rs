@@ -17,14 +17,13 @@ pub(super) fn policies() -> Vec<Policy> {
         Policy::CsFreiburg(CsFreiburg::default()),
         Policy::Art(Art::default()),
         Policy::Rmit(Rmit::default()),
-        Policy::ItalianGolem(ItalianGolem::default()),
         Policy::Optimal(Optimal::default()),
     ]
 }
 
 /// The same without rest, and others without any of the constants that calm them.
 fn restless() -> Vec<Policy> {
-    let (freiburg, art, golem) = (CsFreiburg::default(), Art::default(), ItalianGolem::default());
+    let (freiburg, art) = (CsFreiburg::default(), Art::default());
     vec![
         case_based(),
         closest(),
@@ -34,8 +33,6 @@ fn restless() -> Vec<Policy> {
         Policy::Art(Art { rest: 0.0, enter: 1.01, leave: 1.0, ..art }),
         Policy::Rmit(Rmit { rest: 0.0, ..Rmit::default() }),
         Policy::Rmit(Rmit { rest: 0.0, bonus: 0.0, ..Rmit::default() }),
-        Policy::ItalianGolem(ItalianGolem { rest: 0.0, ..golem }),
-        Policy::ItalianGolem(ItalianGolem { rest: 0.0, lead: 0.0, ..golem }),
         Policy::Optimal(Optimal { rest: 0.0, ..Optimal::default() }),
         Policy::Optimal(Optimal { rest: 0.0, min_gain: 0.0, ..Optimal::default() }),
     ]
@@ -187,7 +184,7 @@ proptest! {
     #[test]
     fn policies_that_hand_out_all_roles_anew_are_settled_after_one_swap(scene in scene(), roles in dealt()) {
         for policy in restless() {
-            if matches!(policy, Policy::Rmit(_) | Policy::ItalianGolem(_) | Policy::Optimal(_)) {
+            if matches!(policy, Policy::Rmit(_) | Policy::Optimal(_)) {
                 let history = settle(&policy, scene.clone(), assignment(roles)).unwrap_or_default();
                 prop_assert!((1..=2).contains(&history.len()), "{policy:?} went {history:?}");
             }

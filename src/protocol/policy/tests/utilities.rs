@@ -12,10 +12,6 @@ fn art() -> Policy {
     Policy::Art(Art::default())
 }
 
-fn golem() -> Policy {
-    Policy::ItalianGolem(ItalianGolem::default())
-}
-
 /// Values, wish and age.
 type Bid<'a> = Option<(&'a [f32], Option<u8>, f32)>;
 
@@ -145,41 +141,4 @@ fn turning_to_the_ball_costs_time_in_art() {
         art().values(&CAST, &scene.knowledge(1)).unwrap().0[0]
     };
     assert!(reach(0.0) > reach(1.5) && reach(1.5) > reach(3.0));
-}
-
-#[test]
-fn the_robot_with_the_ball_has_priority_over_it() {
-    let mut scene = Scene::figure_8();
-    scene.players[2].position = Vec2::new(3.5, 0.0);
-    scene.exchange_values(&golem());
-    assert!(scene.proposals(&golem()).iter().all(|(_, roles)| roles[2] == CAST.forward), "it is at the ball");
-    scene.in_control = Some(0);
-    scene.exchange_values(&golem());
-    assert_eq!(scene.proposals(&golem()), [(0, AFTER_FIGURE_8)]);
-}
-
-#[test]
-fn in_figure_8_the_highest_on_each_action_gets_it_and_the_new_forward_proposes_that() {
-    let mut scene = Scene::figure_8();
-    scene.exchange_values(&golem());
-    assert_eq!(scene.proposals(&golem()), [(0, AFTER_FIGURE_8)]);
-}
-
-#[test]
-fn an_action_stays_with_who_does_it_within_the_lead() {
-    let decide = |of_the_forward: f32| {
-        let mut scene = forward_bids(&[of_the_forward, 0.1, 0.1], None, 0.0);
-        scene.players[1].values = Some(Valued { values: smallvec![0.1, 0.9, 0.1], wish: None, age: 0.0 });
-        // Its own value for the ball, at its place, is 1.
-        scene.decide(&golem(), 0)
-    };
-    assert_eq!(decide(0.95), None);
-    assert!(decide(0.85).is_some());
-}
-
-#[test]
-fn a_robot_without_fresh_values_keeps_its_role_while_the_others_swap() {
-    let scene = forward_bids(&[0.1, 0.1, 0.1], None, 9.0);
-    let expected = smallvec![(0, CAST.floater), (1, CAST.halfback)];
-    assert_eq!(scene.decide(&golem(), 0), Some(Reassignment::Robots(expected)));
 }
