@@ -48,8 +48,44 @@ fn a_team_that_books_the_ball_agglomerates_less_than_half_as_much_as_one_that_do
     assert!(with < 0.5 * without, "{with} with booking, {without} without");
 }
 
+/// Requirements 2 and 4 by what robots do: where their motors take them, not what they believe.
 #[test]
-fn requirements_are_broken_for_moments_only() {
+fn a_team_that_books_sends_one_robot_to_the_ball_where_the_other_sends_several() {
+    let (mut with, mut without) = (Driving::default(), Driving::default());
+    for seed in 1..=4 {
+        for (home, away, booking) in
+            [("chaos_b3p", "chaos_plain", Team::Home), ("chaos_plain", "chaos_b3p", Team::Away)]
+        {
+            let game = played(&plan(home, away, seed, 2.0));
+            with.add(game.record(), booking);
+            without.add(game.record(), booking.opponent());
+        }
+    }
+    assert!(with.several < 0.4 * without.several, "{with:?} with booking, {without:?} without");
+    assert!(with.several < 0.5 * with.one, "{with:?}");
+    assert!(with.nobody < 1.3 * without.nobody, "the ball is left alone: {with:?}, {without:?} without");
+}
+
+/// Seconds with so many robots of a team that drive at the ball.
+#[derive(Debug, Default)]
+struct Driving {
+    nobody: f64,
+    one: f64,
+    several: f64,
+}
+
+impl Driving {
+    fn add(&mut self, record: &Record, team: Team) {
+        let pursuit = &record.pursuit[team.index()];
+        self.nobody += pursuit.nobody.total;
+        self.one += pursuit.one.total;
+        self.several += pursuit.several.total;
+    }
+}
+
+/// What the booking machines believe, on which the robots act.
+#[test]
+fn in_the_eyes_of_the_robots_requirements_are_broken_for_moments_only() {
     for seed in 1..=4 {
         let game = played(&plan("chaos_b3p", "chaos_plain", seed, 2.0));
         let (figures, record) = (game.record().bookings[0], game.record());

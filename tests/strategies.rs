@@ -91,3 +91,15 @@ fn the_teams_of_teamchaos_share_everything_but_the_booking() {
     }
     assert_eq!(by_the_letter, paper);
 }
+
+#[test]
+fn in_every_state_at_the_ball_a_robot_of_teamchaos_leaves_when_it_loses_the_booking() {
+    for machine in &shipped("chaos_b3p").machines {
+        let at_ball = machine.states.iter().filter(|state| state.acquires || !state.kicks.is_empty());
+        for state in at_ball {
+            let ways_out = state.within.iter().flat_map(|outer| &machine.composites[*outer].transitions);
+            let leaves = ways_out.into_iter().any(|way| way.label == "must_leave");
+            assert!(leaves, "{} of {} has no way out", state.name, machine.name);
+        }
+    }
+}
