@@ -27,6 +27,9 @@ pub struct Pursuit {
     /// Until when each robot counts as driving at the ball, s of play.
     #[serde(skip)]
     until: SmallVec<[(PlayerNumber, f64); 8]>,
+    /// Those that drive at the ball now, in order.
+    #[serde(skip)]
+    driving: SmallVec<[PlayerNumber; 8]>,
     /// The last two that were the only one, the last one last, each with the time at which it became that.
     #[serde(skip)]
     last: [Option<(PlayerNumber, f64)>; 2],
@@ -57,7 +60,10 @@ impl Pursuit {
         for player in tick.of(team).filter(|player| drives_at_ball(player, tick)) {
             self.note(player.id.number, tick.now + HOLD);
         }
-        let mut going = tick.of(team).filter(|player| self.goes(player, tick.now));
+        let going = tick.of(team).filter(|player| self.goes(player, tick.now));
+        let driving = going.map(|player| player.id.number).collect();
+        self.driving = driving;
+        let mut going = tick.of(team).filter(|player| self.drives(player.id.number));
         let (first, second) = (going.next(), going.next());
         let only = first.filter(|_| second.is_none());
         let distance = |player: &PlayerTick| player.position.distance(tick.ball);
@@ -77,10 +83,16 @@ impl Pursuit {
     /// Play is interrupted: nobody drives at the ball any more, and stretches of time end.
     pub(super) fn interrupt(&mut self) {
         self.until.clear();
+        self.driving.clear();
         self.last = [None; 2];
         for span in [&mut self.nobody, &mut self.one, &mut self.several, &mut self.farther] {
             span.update(false, 0.0);
         }
+    }
+
+    /// Whether a robot drives at the ball, as of the last tick.
+    pub fn drives(&self, number: PlayerNumber) -> bool {
+        self.driving.contains(&number)
     }
 
     fn goes(&self, player: &PlayerTick, now: f64) -> bool {

@@ -112,6 +112,16 @@ pub enum Condition {
         #[serde(default)]
         at_most: Option<u32>,
     },
+    /// The robot drives at the ball, whatever it believes or has booked.
+    Drives(RobotId),
+    /// How many robots of the team drive at the ball.
+    Driving {
+        team: Team,
+        #[serde(default)]
+        at_least: Option<u32>,
+        #[serde(default)]
+        at_most: Option<u32>,
+    },
     /// Every team mate that is switched on, or only the one named, believes that the robot has booked the ball.
     Booker {
         robot: RobotId,

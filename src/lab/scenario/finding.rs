@@ -52,6 +52,19 @@ pub(super) fn find<'s>(condition: &'s Condition, scene: &'s Scene) -> Finding<'s
             |it| it.on && it.goes,
             |it, _| if it.goes { "went for the ball" } else { "did not go for the ball" }.into(),
         ),
+        Condition::Drives(robot) => of(
+            scene,
+            *robot,
+            |it| it.drives,
+            |it, _| if it.drives { "drove at the ball" } else { "did not drive at the ball" }.into(),
+        ),
+        Condition::Driving { team, at_least, at_most } => {
+            let driving = || scene.switched_on(*team).filter(|it| it.drives);
+            finding(is_between(driving().count() as u32, *at_least, *at_most), move || {
+                list(driving().map(|it| it.id.to_string()), " and ").non_empty_or("nobody")
+                    + " drove at the ball"
+            })
+        }
         Condition::Going { team, at_least, at_most } => {
             finding(is_between(scene.going(*team), *at_least, *at_most), move || {
                 let going = scene.switched_on(*team).filter(|it| it.goes).map(|it| it.id.to_string());

@@ -95,9 +95,9 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
     let mut robots = world.query::<Seen>();
     let world = &*world;
     let Ok((ball, motion)) = ball.single(world) else { return };
-    let strategies = world.resource::<Strategies>();
+    let (strategies, record) = (world.resource::<Strategies>(), world.resource::<Record>());
     let mut scenes: Vec<RobotScene> =
-        robots.iter(world).map(|seen| robot_scene(seen, strategies.of(seen.0.team))).collect();
+        robots.iter(world).map(|seen| robot_scene(seen, strategies.of(seen.0.team), record)).collect();
     scenes.sort_unstable_by_key(|robot| robot.id);
     judge.observe(&Scene {
         tick: world.resource::<Clock>().tick,
@@ -108,13 +108,14 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
         robots: scenes,
         score: world.resource::<MatchState>().score,
         radio: world.resource::<RadioRecord>(),
-        contacts: &world.resource::<Record>().contacts,
+        contacts: &record.contacts,
     });
 }
 
 fn robot_scene<'a>(
     (id, robot, pose, twist, role, activity, team_model, swapping, booking): Seen,
     strategy: &'a Strategy,
+    record: &Record,
 ) -> RobotScene<'a> {
     let machine = &strategy.machines[activity.machine(strategy)];
     let state = &machine.states[activity.state];
@@ -135,6 +136,7 @@ fn robot_scene<'a>(
             team_model.carrier.and_then(Carrier::number)
         },
         goes: booking.is_some_and(|booking| booking.0.goes()),
+        drives: record.pursuit[id.team.index()].drives(id.number),
         booker: match team_model.booking {
             BookingStatus::Own => Some(id.number),
             BookingStatus::Mate(number) => Some(number),

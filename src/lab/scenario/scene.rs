@@ -58,6 +58,8 @@ pub struct RobotScene<'a> {
     pub holder: Option<u8>,
     /// Whether it has booked the ball and goes for it.
     pub goes: bool,
+    /// Whether it drives at the ball, whatever it believes.
+    pub drives: bool,
     /// The number of the robot of its team that, as it believes, has booked the ball.
     pub booker: Option<u8>,
     /// The number of the team mate to which it has given its lock.

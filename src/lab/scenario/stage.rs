@@ -100,6 +100,7 @@ impl Default for Stage {
             claims: false,
             holder: None,
             goes: false,
+            drives: false,
             booker: None,
             locked_by: None,
             configuration: None,

@@ -92,6 +92,11 @@ impl Display for Condition {
                 write!(f, "{robot} holds the ball in the eyes of {by}")
             }
             Condition::Goes(robot) => write!(f, "{robot} goes for the ball"),
+            Condition::Drives(robot) => write!(f, "{robot} drives at the ball"),
+            Condition::Driving { team, at_least, at_most } => {
+                let limits = limits("at least", *at_least, "at most", *at_most, "");
+                write!(f, "{limits} of {team} drive at the ball")
+            }
             Condition::Going { team, at_least, at_most } => {
                 write!(
                     f,
@@ -304,6 +309,8 @@ mod tests {
             (r#"Holder(robot: "home 1", seen_by: "home 2")"#, "home 1 holds the ball in the eyes of home 2"),
             (r#"RolesAre(Home, {0: "g", 1: "h"})"#, "home 0 is g and home 1 is h"),
             (r#"Touching("home 1", "away 2")"#, "home 1 touches away 2"),
+            (r#"Drives("home 1")"#, "home 1 drives at the ball"),
+            ("Driving(team: Home, at_most: 1)", "at most 1 of home drive at the ball"),
             (
                 "MateContacts(team: Home, at_most: 2)",
                 "robots of home have touched each other at most 2 times",

@@ -51,6 +51,12 @@ impl Checker<'_> {
                 self.mates(*robot, *seen_by, "seen_by", &at.key("Holder"))
             }
             Condition::Goes(robot) => self.robot(*robot, &at.key("Goes")),
+            Condition::Drives(robot) => self.robot(*robot, &at.key("Drives")),
+            Condition::Driving { team, at_least, at_most } => {
+                let at = at.key("Driving");
+                self.takes_part(*team, &at.key("team"))?;
+                self.counts(*at_least, *at_most, &at)
+            }
             Condition::Going { at_least, at_most, .. } => self.counts(*at_least, *at_most, &at.key("Going")),
             Condition::Booker { robot, seen_by } => {
                 self.mates(*robot, *seen_by, "seen_by", &at.key("Booker"))
@@ -108,12 +114,7 @@ impl Checker<'_> {
             }
             Condition::RolesDistinct(team)
             | Condition::ConfigurationsAgree(team)
-            | Condition::Unlocked(team) => {
-                if self.robots.iter().any(|robot| robot.team == *team) {
-                    return Ok(());
-                }
-                self.fault(at, format!("{team} does not take part"))
-            }
+            | Condition::Unlocked(team) => self.takes_part(*team, at),
             Condition::RolesAre(team, roles) => {
                 let at = at.key("RolesAre").index(1);
                 if roles.is_empty() {
@@ -189,6 +190,13 @@ impl Checker<'_> {
     }
 
     /// A team has two robots at least, so that they can touch each other.
+    fn takes_part(&self, team: Team, at: &Field) -> Checked<()> {
+        if self.robots.iter().any(|robot| robot.team == team) {
+            return Ok(());
+        }
+        self.fault(at, format!("{team} does not take part"))
+    }
+
     fn two_mates(&self, team: Team, at: &Field) -> Checked<()> {
         match self.robots.iter().filter(|robot| robot.team == team).count() {
             0 => self.fault(&at.key("team"), format!("{team} does not take part")),

@@ -278,6 +278,20 @@ fn every_condition_can_hold_and_fail_and_says_what_was_seen() {
             "home 2 touched home 1, 1.00 m away",
         ),
         (
+            r#"Drives("home 1")"#,
+            |_| {},
+            "home 1 did not drive at the ball",
+            |it| it.robots[1].drives = true,
+            "home 1 drove at the ball",
+        ),
+        (
+            "Driving(team: Home, at_most: 1)",
+            |it| it.robots[1..=2].iter_mut().for_each(|it| it.drives = true),
+            "home 1 and home 2 drove at the ball",
+            |_| {},
+            "nobody drove at the ball",
+        ),
+        (
             "MateContacts(team: Home, at_least: 2)",
             |_| {},
             "robots of home had touched each other 0 times, for 0.00 s",
