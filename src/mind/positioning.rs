@@ -28,9 +28,6 @@ pub struct FieldView<'a> {
     pub room: f32,
 }
 
-/// A few places.
-pub type Places = SmallVec<[Vec2; 8]>;
-
 /// Of the places of the robots that are left that of one, by its index among them. `None` without tasks or with a wrong index.
 pub fn optimal_position(
     view: &FieldView,
@@ -52,9 +49,9 @@ pub fn optimal_position(
 }
 
 /// The places for so many robots, by importance: one for each task in turn, then more of the last task. `None` without tasks.
-pub fn places(view: &FieldView, tasks: &[CoverTask], robots: &[Vec2]) -> Option<Places> {
+pub fn places(view: &FieldView, tasks: &[CoverTask], robots: &[Vec2]) -> Option<SmallVec<[Vec2; 8]>> {
     let last = tasks.last()?;
-    let mut taken = Places::new();
+    let mut taken = SmallVec::<[Vec2; 8]>::new();
     for index in 0..robots.len() {
         let place = match tasks.get(index).unwrap_or(last) {
             CoverTask::ScreenGoal => view.screen(),
@@ -160,7 +157,7 @@ mod tests {
         FieldView { pitch, ball, busy: &[], opponents, room: ROOM }
     }
 
-    fn all_places(view: &FieldView, robots: &[Vec2]) -> Places {
+    fn all_places(view: &FieldView, robots: &[Vec2]) -> SmallVec<[Vec2; 8]> {
         places(view, &ALL, robots).expect("there are tasks")
     }
 
