@@ -71,7 +71,7 @@ fn a_weight_that_is_set_during_the_match_acts_from_the_next_tick_on() {
 #[test]
 fn a_strategy_can_be_exchanged_during_the_match() {
     let plan = friendly(7, 0.3);
-    let slow = changed_strategy("ball_chasers", "speed: 0.7", "speed: 0.1");
+    let slow = changed_strategy("ball_chasers", "speed: 0.85", "speed: 0.1");
     let mut game = Match::new(&plan);
     while !game.is_over() {
         if game.clock().tick == 600 {
