@@ -5,6 +5,7 @@ mod asset_files;
 mod b3p;
 mod booking;
 mod command_line;
+mod contact_cost;
 mod corpus;
 mod docs;
 mod duel;

@@ -53,6 +53,8 @@ impl Bound {
     pub const TURN_ACCELERATION: Bound = Bound::up_to(100_000.0, "°/s²");
     /// A mass.
     pub const MASS: Bound = Bound::up_to(1000.0, " kg");
+    /// An impulse.
+    pub const IMPULSE: Bound = Bound::up_to(10_000.0, " N·s");
     /// A force.
     pub const FORCE: Bound = Bound::up_to(10_000.0, " N");
     /// The stiffness of a spring.

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::footing::ContactCost;
 use super::legs::{Chin, Kick, Neck, Walker};
 use crate::data::{Bound, Fault, Field, Validate, check_all, check_count, ensure};
 
@@ -22,6 +23,9 @@ pub struct RobotKind {
     pub body: Body,
     /// How it moves.
     pub drive: Drive,
+    /// What touching other robots costs it; nothing, if not given.
+    #[serde(default)]
+    pub contact: Option<ContactCost>,
     /// What it pulls.
     #[serde(default)]
     pub trailer: Option<TrailerKind>,
@@ -143,6 +147,7 @@ impl Validate for RobotKind {
             Drive::Differential(drive) => drive.validate_as("drive")?,
             Drive::Walker(walker) => walker.validate_as("drive")?,
         }
+        self.contact.validate_as("contact")?;
         self.trailer.validate_as("trailer")?;
         self.scoop.validate_as("scoop")?;
         self.neck.validate_as("neck")?;

@@ -1,6 +1,7 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
 mod events;
+mod footing;
 mod gait;
 pub mod handling;
 mod health;
@@ -20,6 +21,7 @@ use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use smallvec::SmallVec;
 
 pub use events::{Misled, PutDown, RobotStart, StrategyChanged, SwitchedOff, SwitchedOn};
+pub use footing::{ContactCost, Falls, Footing};
 pub use gait::Gait;
 pub use health::{Health, Restart, RobotFailure};
 pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};
@@ -59,6 +61,9 @@ pub(crate) fn plugin(app: &mut App) {
     app.match_component::<DriveCommand>()
         .starts(|start: &RobotStart, _| DriveCommand::idle(&start.kind))
         .on(DriveCommand::stop);
+    app.match_component::<Footing>()
+        .starts(|start: &RobotStart, _| Footing::new(start.seed, start.id))
+        .on(|footing, _: &PutDown, _| footing.stand());
     app.match_component::<Handling>()
         .starts(|start: &RobotStart, _| Handling::new(start.seed, start.id))
         .on(|handling, _: &PutDown, _| handling.let_go());

@@ -10,38 +10,20 @@ use crate::ids::RobotId;
 use crate::pitch::BallKind;
 use crate::robot::handling::{Catch, Grip, Handling, Kicking, NearBall, kicked_together, launch};
 use crate::robot::pilot::Pilot;
-use crate::robot::{KickIntent, Orders, Robot, RobotState};
+use crate::robot::{Footing, KickIntent, Orders, Robot, RobotState};
 use crate::schedule::{Tick, TickSystems};
-use crate::state::RegisterState;
 use crate::world::ball::{Ball, Rolling};
+use crate::world::body_events::{BodyEvent, BodyEvents};
 use crate::world::drive::push_bodies;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
-    app.match_resource::<BodyEvents>().starts_empty();
     let systems = (decide_handling, grant_one_catch, strike_ball, hold_ball).chain().after(push_bodies);
     app.add_systems(Tick, systems.in_set(TickSystems::Drive));
 }
 
-/// What happened to robots' bodies in this tick.
-#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
-pub struct BodyEvents(pub Vec<(RobotId, BodyEvent)>);
-
-/// Something that happened to the body of a robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BodyEvent {
-    /// It began a kick.
-    KickTried,
-    /// Its kick met the ball.
-    KickStruck,
-    /// Its kick met nothing.
-    KickMissed,
-    /// Its chin got hold of the ball.
-    BallCaught,
-}
-
 type Handler<'a> = (&'a RobotId, &'a Robot, &'a RapierRigidBodyHandle, &'a Pose, &'a mut Handling);
-type Wanting<'a> = (Handler<'a>, &'a KickIntent, Option<&'a Pilot>, &'a Orders);
+type Wanting<'a> = (Handler<'a>, &'a KickIntent, Option<&'a Pilot>, &'a Orders, &'a Footing);
 
 /// Farther than this from a ball no robot can handle it, m.
 const NEAR: f32 = 0.5;
@@ -54,14 +36,13 @@ fn decide_handling(
     mut robots: Query<Wanting>,
     mut events: ResMut<BodyEvents>,
 ) {
-    events.0.clear();
     let (ball, ball_pose) = *ball;
-    for ((&id, robot, body, pose, mut handling), intent, pilot, orders) in &mut robots {
+    for ((&id, robot, body, pose, mut handling), intent, pilot, orders, footing) in &mut robots {
         if robot.kind.chin.is_none() && robot.kind.kicks.is_empty() {
             continue;
         }
         let handling = &mut *handling;
-        if orders.state != RobotState::Playing || !robot.health.drives() {
+        if orders.state != RobotState::Playing || !robot.health.drives() || !footing.stands() {
             handling.let_go();
             continue;
         }

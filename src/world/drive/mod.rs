@@ -3,11 +3,13 @@
 //! Pilot and strategy share the limits of speed, acceleration and force.
 
 mod differential;
+mod footing;
 mod neck;
 mod walker;
 mod wheels;
 
 use bevy::ecs::query::QueryData;
+use bevy::math::ops;
 use bevy::prelude::*;
 use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
 
@@ -20,19 +22,19 @@ use crate::geometry::wrap_angle;
 use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{
-    DifferentialDrive, Drive, DriveCommand, Gait, Odometry, Orders, Robot, RobotBodies, RobotStart,
-    SteeringIntent, TrailerKind, Walker, WheelSpeeds,
+    DifferentialDrive, Drive, DriveCommand, Footing, Gait, GaitNoise, Odometry, Orders, Robot, RobotBodies,
+    RobotStart, SteeringIntent, TrailerKind, Walker, WheelSpeeds,
 };
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
+use crate::world::body_events::BodyEvents;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
     app.match_component::<GaitError>().starts(|start: &RobotStart, _| GaitError::new(start.seed, start.id));
-    app.add_systems(
-        Tick,
-        ((command_motors, push_bodies).chain(), neck::turn_heads).in_set(TickSystems::Drive),
-    );
+    app.match_resource::<BodyEvents>().starts_empty();
+    let driving = (footing::keep_footing, command_motors, push_bodies).chain();
+    app.add_systems(Tick, (driving, neck::turn_heads).in_set(TickSystems::Drive));
 }
 
 /// A robot whose motors are told what to do.
@@ -44,13 +46,15 @@ struct Driven {
     pilot: Option<&'static Pilot>,
     odometry: &'static Odometry,
     handling: &'static Handling,
+    footing: &'static Footing,
     orders: &'static Orders,
     command: &'static mut DriveCommand,
 }
 
 fn command_motors(clock: Res<Clock>, mut robots: Query<Driven>) {
     for mut driven in &mut robots {
-        let may_move = driven.orders.may_move() && driven.robot.health.drives();
+        let is_able = driven.robot.health.drives() && driven.footing.stands();
+        let may_move = driven.orders.may_move() && is_able;
         let next = match (&driven.robot.kind.drive, *driven.command) {
             (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
                 let wanted = if may_move { driven.wheels(drive) } else { WheelSpeeds::default() };
@@ -125,6 +129,7 @@ pub(crate) struct Pushed {
     robot: &'static Robot,
     handles: &'static RobotBodies,
     command: &'static DriveCommand,
+    footing: &'static Footing,
     error: &'static mut GaitError,
 }
 
@@ -146,10 +151,19 @@ pub(crate) fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, mut robots: Que
 }
 
 impl PushedItem<'_, '_> {
+    /// The share of its force that is there, and the error of a walker's turn in degrees/s, by how entangled it is.
+    fn cost(&self) -> (f32, f32) {
+        let strain = self.footing.strain;
+        self.robot.kind.contact.map_or((1.0, 0.0), |cost| (cost.share(strain), cost.turn_error(strain)))
+    }
+
     fn roll(&self, speeds: WheelSpeeds, drive: &DifferentialDrive, bodies: &mut Bodies, clock: &Clock) {
         let handles = self.handles;
         let Some(mut unit) = bodies.get(&handles.unit).map(rigid) else { return };
         let kind: Option<&TrailerKind> = self.robot.kind.trailer.as_ref();
+        let (share, _) = self.cost();
+        let (wheel_force, grip) = (drive.wheel_force * share, drive.grip * share);
+        let drive = &DifferentialDrive { wheel_force, grip, ..*drive };
         let mut trailer = handles.trailer.and_then(|handle| bodies.get(&handle)).map(rigid);
         push_wheels(&mut unit, trailer.as_mut().zip(kind), speeds, drive, clock.dt);
         let moved = [Some(handles.unit).zip(Some(unit)), handles.trailer.zip(trailer)];
@@ -163,7 +177,10 @@ impl PushedItem<'_, '_> {
 
     fn walk(&mut self, gait: Gait, walker: &Walker, bodies: &mut Bodies, clock: &Clock) {
         let Some(body) = bodies.get_mut(&self.handles.unit) else { return };
-        let gait = self.error.applied(gait, &walker.noise, clock.tick, clock.ticks(walker.noise.step));
+        let (share, turn_error) = self.cost();
+        let noise = GaitNoise { turn: ops::hypot(walker.noise.turn, turn_error), ..walker.noise };
+        let step = clock.ticks(walker.noise.step);
+        let gait = self.error.applied(gait, &noise, clock.tick, step).times(share);
         let rigid = rigid(body);
         let trunk = Trunk {
             forward: rigid.forward,
@@ -173,7 +190,7 @@ impl PushedItem<'_, '_> {
             inverse_inertia: rigid.inverse_inertia,
             lever: self.robot.kind.body.length / 2.0,
         };
-        let (linear, angular) = push_legs(&trunk, gait, walker.push, clock.dt);
+        let (linear, angular) = push_legs(&trunk, gait, walker.push * share, clock.dt);
         body.set_linvel(linear, false);
         body.set_angvel(angular, false);
     }
