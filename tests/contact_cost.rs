@@ -17,12 +17,12 @@ use touchline::world::{BodyEvent, BodyEvents};
 
 use crate::support::{assets, digest_of, robot};
 
-/// The four-legged match between robots with this cost of contact.
+/// The four-legged match between robots with this cost of contact, whose kicks do not mind bumps.
 fn plan(contact: Option<ContactCost>) -> MatchPlan {
     let choice = Choice { file: Some("four_legged_2005".into()), seed: 1, ..Choice::default() };
     let mut plan = MatchPlan::read(&assets(), &choice).expect("the shipped match is sound");
     for team in &mut plan.teams {
-        team.kind = Arc::new(RobotKind { contact, ..RobotKind::clone(&team.kind) });
+        team.kind = Arc::new(RobotKind { contact, strike: None, ..RobotKind::clone(&team.kind) });
     }
     plan
 }

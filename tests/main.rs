@@ -3,6 +3,7 @@
 mod architecture;
 mod asset_files;
 mod b3p;
+mod ball_handling;
 mod booking;
 mod command_line;
 mod contact_cost;

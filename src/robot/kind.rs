@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::footing::ContactCost;
-use super::legs::{Chin, Kick, Neck, Walker};
+use super::legs::{Chin, Kick, Neck, Strike, Walker};
 use crate::data::{Bound, Fault, Field, Validate, check_all, check_count, ensure};
 
 /// One kind of robot.
@@ -38,6 +38,9 @@ pub struct RobotKind {
     /// How the ball is held under the head.
     #[serde(default)]
     pub chin: Option<Chin>,
+    /// Where kicks meet the ball. If not given, a kick has all its force wherever the ball lies before the body.
+    #[serde(default)]
+    pub strike: Option<Strike>,
     /// By name.
     #[serde(default)]
     pub kicks: BTreeMap<String, Kick>,
@@ -152,6 +155,7 @@ impl Validate for RobotKind {
         self.scoop.validate_as("scoop")?;
         self.neck.validate_as("neck")?;
         self.chin.validate_as("chin")?;
+        self.strike.validate_as("strike")?;
         let kicks = || self.kicks.iter().try_for_each(|(name, kick)| kick.validate_as(name));
         kicks().map_err(|fault| fault.inside(&Field::root().key("kicks")))
     }

@@ -68,8 +68,11 @@ pub struct Chin {
     pub success: f32,
     /// Time that an attempt takes, s.
     pub time: f32,
-    /// Most that the hold pulls before the ball slips out, N.
+    /// Most that the hold pulls, N.
     pub force: f32,
+    /// Push of other robots on a held ball at which it slips out, N; it never does, if not given.
+    #[serde(default)]
+    pub slips_at: Option<f32>,
     /// Share of the speed that is left while it holds a ball.
     pub walk: f32,
     /// Fastest turn with a ball, degrees/s.
@@ -93,6 +96,31 @@ pub struct Kick {
     /// Whether the chin has to hold the ball first.
     #[serde(default)]
     pub from_hold: bool,
+}
+
+/// Where a kick meets the ball. Measured kicks are those of a lone robot that meets it squarely.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Strike {
+    /// A ball that is no farther than this off the middle is met squarely, m.
+    pub square: f32,
+    /// A ball that is so much farther aside than that is not met at all, m; in between it is met with less and less.
+    pub edge: f32,
+    /// How far a ball that is met at the very edge is turned outwards, degrees.
+    pub glance: f32,
+    /// Chance that a robot that is wholly entangled with others misses.
+    pub bumped: f32,
+}
+
+impl Validate for Strike {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("square", self.square, Bound::SIZE),
+            ("edge", self.edge, Bound::SIZE.positive()),
+            ("glance", self.glance, Bound::ANGLE),
+            ("bumped", self.bumped, Bound::SHARE),
+        ])
+    }
 }
 
 impl Validate for Walker {
@@ -136,6 +164,7 @@ impl Validate for Chin {
             ("time", self.time, Bound::SECONDS),
             ("success", self.success, Bound::SHARE),
             ("walk", self.walk, Bound::SHARE),
+            ("slips_at", self.slips_at.unwrap_or_default(), Bound::FORCE),
         ])?;
         let is_ordered = self.reach.0 < self.reach.1;
         ensure(is_ordered, "reach", || "needs two lengths, the lesser one first".into())

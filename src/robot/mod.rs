@@ -26,7 +26,7 @@ pub use gait::Gait;
 pub use health::{Health, Restart, RobotFailure};
 pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
-pub use legs::{Chin, GaitNoise, Kick, Neck, Walker};
+pub use legs::{Chin, GaitNoise, Kick, Neck, Strike, Walker};
 pub use orders::{Orders, RobotState};
 pub use senses::{Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
 pub use sensing::{Camera, Eyes, Localisation, MemorySpans, OdometryNoise, Sensing};

@@ -21,4 +21,6 @@ pub enum BodyEvent {
     KickMissed,
     /// Its chin got hold of the ball.
     BallCaught,
+    /// Others pushed or kicked the ball out from under its chin.
+    BallSlipped,
 }

@@ -8,25 +8,46 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
 use crate::pitch::BallKind;
-use crate::robot::handling::{Catch, Grip, Handling, Kicking, NearBall, kicked_together, launch};
+use crate::robot::handling::{Catch, Glance, Grip, Handling, Kicking, NearBall, kicked_together, launch};
 use crate::robot::pilot::Pilot;
 use crate::robot::{Footing, KickIntent, Orders, Robot, RobotState};
 use crate::schedule::{Tick, TickSystems};
 use crate::world::ball::{Ball, Rolling};
 use crate::world::body_events::{BodyEvent, BodyEvents};
 use crate::world::drive::push_bodies;
+use crate::world::impulses::ContactImpulses;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
-    let systems = (decide_handling, grant_one_catch, strike_ball, hold_ball).chain().after(push_bodies);
+    let systems =
+        (let_slip, decide_handling, grant_one_catch, strike_ball, hold_ball).chain().after(push_bodies);
     app.add_systems(Tick, systems.in_set(TickSystems::Drive));
 }
 
-type Handler<'a> = (&'a RobotId, &'a Robot, &'a RapierRigidBodyHandle, &'a Pose, &'a mut Handling);
-type Wanting<'a> = (Handler<'a>, &'a KickIntent, Option<&'a Pilot>, &'a Orders, &'a Footing);
+type Handler<'a> =
+    (&'a RobotId, &'a Robot, &'a RapierRigidBodyHandle, &'a Pose, &'a mut Handling, &'a Footing);
+type Wanting<'a> = (Handler<'a>, &'a KickIntent, Option<&'a Pilot>, &'a Orders);
 
 /// Farther than this from a ball no robot can handle it, m.
 const NEAR: f32 = 0.5;
+
+/// Held balls slip out that others pushed hard in the last step.
+fn let_slip(
+    clock: Res<Clock>,
+    contacts: Res<ContactImpulses>,
+    mut robots: Query<(&RobotId, &Robot, &mut Handling)>,
+    mut events: ResMut<BodyEvents>,
+) {
+    for (&id, robot, mut handling) in &mut robots {
+        let Some(chin) = robot.kind.chin.filter(|_| handling.holds()) else { continue };
+        let force = contacts.on_ball_without(id) / clock.dt;
+        let grip = handling.grip.pushed(force, &chin, (clock.tick, clock.ticks(chin.time)));
+        if grip != handling.grip {
+            handling.grip = grip;
+            events.0.push((id, BodyEvent::BallSlipped));
+        }
+    }
+}
 
 /// Begins and ends what robots do to the ball.
 fn decide_handling(
@@ -37,7 +58,7 @@ fn decide_handling(
     mut events: ResMut<BodyEvents>,
 ) {
     let (ball, ball_pose) = *ball;
-    for ((&id, robot, body, pose, mut handling), intent, pilot, orders, footing) in &mut robots {
+    for ((&id, robot, body, pose, mut handling, footing), intent, pilot, orders) in &mut robots {
         if robot.kind.chin.is_none() && robot.kind.kicks.is_empty() {
             continue;
         }
@@ -129,6 +150,20 @@ fn near_ball(
     Some(NearBall { at: pose.to_local(ball_pose.position), drift })
 }
 
+/// How a kick meets the ball, if it does: a held one squarely, another one where it lies, and none with bad luck in a scrum.
+fn met(robot: &Robot, ball: Option<&NearBall>, handling: &mut Handling, footing: &Footing) -> Option<Glance> {
+    let Some(strike) = &robot.kind.strike else {
+        return (handling.holds() || ball.is_some_and(|ball| in_reach(ball, robot))).then(Glance::default);
+    };
+    if footing.strain > 0.0 && handling.dice.chance(strike.bumped * footing.strain) {
+        return None;
+    }
+    if handling.holds() {
+        return Some(Glance::default());
+    }
+    ball.filter(|ball| in_reach(ball, robot)).and_then(|ball| strike.met(ball.at.y))
+}
+
 /// Sends the ball off where a kick meets it. Kicks that meet it in one tick have their mean: a ball between two equal ones
 /// stays, whoever kicks first in the books.
 fn strike_ball(
@@ -141,20 +176,30 @@ fn strike_ball(
 ) {
     let (ball_handle, ball_pose, mut rolling) = ball.into_inner();
     let mut kicks: SmallVec<[(RobotId, Vec2); 4]> = SmallVec::new();
-    for (&id, robot, body, pose, mut handling) in &mut robots {
+    for (&id, robot, body, pose, mut handling, footing) in &mut robots {
         let Some(kicking) = handling.kicking.filter(|kicking| kicking.strikes == clock.tick) else {
             continue;
         };
         let near = near_ball((body, pose), (ball_handle, ball_pose), &bodies);
-        let held = handling.holds();
+        let glance = met(robot, near.as_ref(), &mut handling, footing);
         handling.grip = Grip::Open;
-        if held || near.is_some_and(|ball| in_reach(&ball, robot)) {
-            let kicked = launch(&kicking.kick, kind.rolling, &mut handling.dice);
+        if let Some(glance) = glance {
+            let kicked = launch(&kicking.kick, glance, kind.rolling, &mut handling.dice);
             kicks.push((id, unit(pose.heading).rotate(kicked)));
             events.0.push((id, BodyEvent::KickStruck));
         } else {
             events.0.push((id, BodyEvent::KickMissed));
         }
+    }
+    if kicks.is_empty() {
+        return;
+    }
+    for (&id, robot, .., mut handling, _) in &mut robots {
+        let Some(chin) = robot.kind.chin.filter(|chin| handling.holds() && chin.slips_at.is_some()) else {
+            continue;
+        };
+        handling.grip = Grip::Raising { until: clock.tick + clock.ticks(chin.time) };
+        events.0.push((id, BodyEvent::BallSlipped));
     }
     // A sum of three or more depends on its order in the last bits.
     kicks.sort_unstable_by_key(|(id, _)| *id);

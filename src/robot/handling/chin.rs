@@ -87,6 +87,13 @@ impl Grip {
         }
     }
 
+    /// This grip after other robots have pushed the ball with so many newtons: a held ball slips out if that is too much, and
+    /// the head has to go up before it can come down again.
+    pub fn pushed(self, force: f32, chin: &Chin, (tick, ticks): (u64, u64)) -> Grip {
+        let slips = self.holds() && chin.slips_at.is_some_and(|limit| force > limit);
+        if slips { Grip::Raising { until: tick + ticks } } else { self }
+    }
+
     /// Whether the ball is under the chin.
     pub fn holds(self) -> bool {
         matches!(self, Grip::Holding { .. })
@@ -123,6 +130,7 @@ mod tests {
         success: 0.8,
         time: 0.3,
         force: 3.0,
+        slips_at: Some(3.0),
         walk: 0.4,
         turn: 86.0,
     };
@@ -160,6 +168,16 @@ mod tests {
         assert_eq!(held.next(false, Some(&at_rest), &CHIN, (9, 18), || 0.0), Grip::Open);
         assert_eq!(after(held, Some(ball(0.18, 0.04, 0.0)), 9, 0.0), held);
         assert_eq!(after(held, Some(ball(0.24, 0.0, 0.0)), 9, 0.0), Grip::Open);
+    }
+
+    #[test]
+    fn a_held_ball_slips_out_when_others_push_it_hard() {
+        let held = Grip::Holding { since: 0 };
+        assert_eq!(held.pushed(2.9, &CHIN, (10, 18)), held);
+        assert_eq!(held.pushed(3.1, &CHIN, (10, 18)), Grip::Raising { until: 28 });
+        assert_eq!(held.pushed(9.0, &Chin { slips_at: None, ..CHIN }, (10, 18)), held);
+        let down = Grip::Lowering { until: 20 };
+        assert_eq!(down.pushed(9.0, &CHIN, (10, 18)), down, "nothing is held yet");
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod kick;
 use bevy::prelude::*;
 
 pub use chin::{Catch, Grip, NearBall};
-pub use kick::{Kicking, kicked_together, launch};
+pub use kick::{Glance, Kicking, kicked_together, launch};
 
 use crate::ids::RobotId;
 use crate::rng::{Dice, Seed};
