@@ -47,8 +47,11 @@ impl Duels {
     }
 }
 
-/// Both robots want the same of the ball, for some ticks.
+/// Both robots, driven by people, want the same of the ball for some ticks.
 fn both(game: &mut Match, kick: KickIntent, ticks: usize) {
+    for team in Team::BOTH {
+        game.world_mut().resource_mut::<Requests>().ask(Request::TakeOver(RobotId::new(team, 1)));
+    }
     for _ in 0..ticks {
         for team in Team::BOTH {
             let pilot = Pilot { kick, ..Pilot::default() };

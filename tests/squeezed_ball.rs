@@ -29,7 +29,11 @@ fn face_to_face(match_file: &str, apart: f32, aside: f32) -> Match {
     ]);
     plan.situation =
         Some(Situation { refereed: false, robots, ball: Vec2::new(0.0, aside), velocity: Vec2::ZERO });
-    Match::new(&plan)
+    let mut game = Match::new(&plan);
+    for team in Team::BOTH {
+        game.world_mut().resource_mut::<Requests>().ask(Request::TakeOver(RobotId::new(team, 1)));
+    }
+    game
 }
 
 /// Both drive ahead with all that they have.

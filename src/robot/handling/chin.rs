@@ -105,7 +105,7 @@ impl Grip {
 pub struct Catch {
     /// The tick in which it got hold of the ball.
     pub since: u64,
-    /// From the ball to its pocket, m.
+    /// From the ball to its pocket, m; differences below a millimetre do not count.
     pub off: f32,
     /// A number drawn for it.
     pub lot: f32,
@@ -114,7 +114,9 @@ pub struct Catch {
 impl Catch {
     /// The better claim is less: who held first, then whose pocket is nearer, then whose lot is less.
     pub fn order(&self, other: &Catch) -> Ordering {
-        let by_place = || self.off.total_cmp(&other.off).then(self.lot.total_cmp(&other.lot));
+        let millimetres = |off: f32| (1000.0 * off).round();
+        let nearer = || millimetres(self.off).total_cmp(&millimetres(other.off));
+        let by_place = || nearer().then(self.lot.total_cmp(&other.lot));
         self.since.cmp(&other.since).then_with(by_place)
     }
 }
@@ -188,7 +190,7 @@ mod tests {
         };
         better(claim(3, 0.04, 0.9), claim(4, 0.01, 0.1));
         better(claim(4, 0.01, 0.9), claim(4, 0.02, 0.1));
-        better(claim(4, 0.01, 0.1), claim(4, 0.01, 0.9));
+        better(claim(4, 0.0101, 0.1), claim(4, 0.01, 0.9));
     }
 
     #[test]
