@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use crate::comms::radio::Radio;
 use crate::data::{AssetFolder, Source};
 use crate::pitch::{BallKind, Pitch};
-use crate::robot::{Eyes, MemorySpans, RobotKind, Sensing};
+use crate::robot::{Eyes, Landmarks, MemorySpans, RobotKind, Sensing};
 use crate::strategy::Strategy;
 
 /// A size 5 football that rolls straight.
@@ -55,6 +55,10 @@ pub fn strategy(player: &str, pieces: &str) -> Strategy {
     let assets = AssetFolder::new("assets");
     Strategy::parse(&assets, &Source::new("test.ron", text), None).expect("the strategy of the test is sound")
 }
+
+/// What a Cye finds its place by, as far as a test is concerned.
+pub const LANDMARKS: Landmarks =
+    Landmarks { posts: 9.0, beacons: 0.0, lines: 2.0, one: 0.5, line: 0.2, looks_down: 0.0, settle: 1.5 };
 
 /// Eyes that see everything.
 pub fn perfect_sensing() -> Sensing {

@@ -12,7 +12,7 @@ use touchline::game::requests::{Request, RobotChange};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
-use touchline::robot::{Eyes, Restart, RobotFailure};
+use touchline::robot::{Eyes, OdometrySource, PlaceError, Restart, RobotFailure};
 
 use crate::support::{assets, ball, robot};
 
@@ -63,8 +63,11 @@ fn plan(strategy: &str) -> MatchPlan {
     let mut plan = MatchPlan::read(&assets(), &choice).expect("the shipped files are sound");
     for team in &mut plan.teams {
         // A ball that the camera made up is sensed, but not near any truth.
-        if let Eyes::Real { camera, .. } = &mut Arc::make_mut(&mut team.sensing).eyes {
+        // And a robot that is blocked, pushed or carried errs by as much as it likes.
+        if let Eyes::Real { camera, localisation, odometry } = &mut Arc::make_mut(&mut team.sensing).eyes {
             camera.false_positive = 0.0;
+            (localisation.landmarks, localisation.put_down) = (None, PlaceError::default());
+            odometry.from = OdometrySource::Motion;
         }
     }
     for id in plan.robots().collect::<Vec<_>>() {

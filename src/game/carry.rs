@@ -14,6 +14,7 @@ use crate::strategy::{Role, Strategies, Strategy};
 use crate::world::ball::{Ball, BallPut};
 use crate::world::physics::Put;
 use crate::world::referee::{Calls, Decision, MatchState, Phase, RuleBook, judge, orders_of};
+use crate::world::sense::told_place;
 
 pub(super) fn plugin(app: &mut App) {
     let hands = (place_ball, place_robots, tell_robots).chain();
@@ -102,7 +103,8 @@ fn place_robots(
             let (strategy, tick) = (strategies.0[id.team.index()].clone(), clock.tick);
             let put = Put { at, lifted: in_the_air, ..Put::default() };
             robot.queue(put.then(move |world, robot, at| {
-                apply_event(world, robot, &PutDown { told: ends.turn_pose(at), strategy, tick });
+                let told = told_place(world, robot, ends.turn_pose(at));
+                apply_event(world, robot, &PutDown { told, strategy, tick });
             }));
         }
     }

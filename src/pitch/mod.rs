@@ -36,6 +36,9 @@ pub struct Pitch {
     pub centre_circle_radius: f32,
     /// Where the referee puts a ball that makes no progress, in reading order from west to east.
     pub penalty_spots: Vec<Vec2>,
+    /// Coloured posts beside the pitch that robots find their place by. Nothing runs into them.
+    #[serde(default)]
+    pub beacons: Vec<Vec2>,
     /// The walls.
     pub walls: Walls,
 }
@@ -79,6 +82,27 @@ pub struct Walls {
 }
 
 impl Pitch {
+    /// The painted lines but for the centre circle, or the feet of the walls, from end to end.
+    pub fn lines(&self) -> [(Vec2, Vec2); 11] {
+        let half = self.half_size();
+        let (front, side) = (half.x - self.penalty_area.depth, self.penalty_area.width / 2.0);
+        let across = |x: f32, y: f32| (Vec2::new(x, -y), Vec2::new(x, y));
+        let along = |from: f32, to: f32, y: f32| (Vec2::new(from, y), Vec2::new(to, y));
+        [
+            across(-half.x, half.y),
+            across(0.0, half.y),
+            across(half.x, half.y),
+            along(-half.x, half.x, -half.y),
+            along(-half.x, half.x, half.y),
+            across(-front, side),
+            across(front, side),
+            along(-half.x, -front, -side),
+            along(-half.x, -front, side),
+            along(front, half.x, -side),
+            along(front, half.x, side),
+        ]
+    }
+
     /// Half the length and half the width.
     pub fn half_size(&self) -> Vec2 {
         Vec2::new(self.length / 2.0, self.width / 2.0)
@@ -139,6 +163,8 @@ impl Validate for Pitch {
         })?;
         check_count("penalty_spots", "the number of spots", self.penalty_spots.len(), 1..=MOST_SPOTS)?;
         Bound::PLACE.check_points("penalty_spots", &self.penalty_spots)?;
+        check_count("beacons", "the number of beacons", self.beacons.len(), 0..=MOST_SPOTS)?;
+        Bound::PLACE.check_points("beacons", &self.beacons)?;
         self.penalty_spots.iter().enumerate().try_for_each(|(number, spot)| {
             let is_inside = spot.abs().cmplt(self.half_size()).all();
             let message = || format!("({}, {}) is outside the pitch", spot.x, spot.y);
@@ -165,6 +191,7 @@ mod tests {
             penalty_area: PenaltyArea { depth: 0.65, width: 1.3 },
             centre_circle_radius: 0.18,
             penalty_spots: vec![Vec2::ZERO],
+            beacons: Vec::new(),
             walls,
         }
     }

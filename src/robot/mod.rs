@@ -28,8 +28,10 @@ pub use intent::{Head, HeadIntent, KickIntent, SteeringIntent};
 pub use kind::{Body, DifferentialDrive, Drive, RobotKind, Scoop, TrailerKind};
 pub use legs::{Chin, GaitNoise, Kick, Neck, Strike, Walker};
 pub use orders::{Orders, RobotState};
-pub use senses::{Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
-pub use sensing::{Camera, Eyes, Localisation, MemorySpans, OdometryNoise, Sensing};
+pub use senses::{Fix, Frame, Odometry, Percepts, range_deviation, reckon, should_be_seen};
+pub use sensing::{
+    Camera, Eyes, Landmarks, Localisation, MemorySpans, OdometryNoise, OdometrySource, PlaceError, Sensing,
+};
 pub use wheel_speeds::WheelSpeeds;
 
 use crate::clock::Clock;

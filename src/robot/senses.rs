@@ -27,12 +27,21 @@ pub struct Frame {
     pub ball: Option<Sighting>,
     /// Markers tell the team, not the number.
     pub robots: Vec<(Team, Sighting)>,
-    /// The localised pose, in the team frame.
-    pub fix: Pose,
+    /// The localised pose, if landmarks in view gave one.
+    pub fix: Option<Fix>,
     /// Where the camera looked: rad to the left of the body's heading.
     pub pan: f32,
     /// Whether the robot's own chin was on the ball.
     pub chin_down: bool,
+}
+
+/// A pose that a robot has worked out from one camera frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fix {
+    /// In the team frame.
+    pub pose: Pose,
+    /// How much of a full fix the landmarks in view give, 0 to 1.
+    pub share: f32,
 }
 
 /// What wheels or legs report: a dead-reckoned pose in a frame of its own, and whether they move in vain.

@@ -57,7 +57,7 @@ pub struct Camera {
     pub false_positive: f32,
 }
 
-/// Self-localisation that is wrong by a slowly drifting amount.
+/// Self-localisation: fixes that are wrong by a slowly drifting amount, and what brings them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Localisation {
@@ -69,6 +69,42 @@ pub struct Localisation {
     pub drift_time: f32,
     /// Mean time between two jumps to another error.
     pub jump_time: f32,
+    /// What a fix needs. Without it every frame brings one, and a fix far off the belief is believed at once.
+    #[serde(default)]
+    pub landmarks: Option<Landmarks>,
+    /// How well a robot knows its place after people have put it down.
+    #[serde(default)]
+    pub put_down: PlaceError,
+}
+
+/// What a robot finds its place by, and how fast.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Landmarks {
+    /// Farthest goal post that is recognised.
+    pub posts: f32,
+    /// Farthest beacon that is recognised, where a pitch has beacons.
+    pub beacons: f32,
+    /// Farthest line or foot of a wall that is recognised.
+    pub lines: f32,
+    /// The share of a fix that one post or beacon gives; two give all of it.
+    pub one: f32,
+    /// The share of a fix that lines give, in addition.
+    pub line: f32,
+    /// While a ball nearer than this is in view, the camera looks down at it and shows neither posts nor beacons.
+    pub looks_down: f32,
+    /// How long beliefs take to follow full fixes: the time in which an error falls to a third.
+    pub settle: f32,
+}
+
+/// Standard deviations of what a robot takes its pose to be; nothing by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceError {
+    /// Of each coordinate.
+    pub position: f32,
+    /// degrees
+    pub heading: f32,
 }
 
 /// Dead reckoning from the wheels.
@@ -79,6 +115,19 @@ pub struct OdometryNoise {
     pub distance: f32,
     /// After half a metre; grows with the root of the distance, degrees.
     pub heading: f32,
+    /// What is reckoned with.
+    #[serde(default)]
+    pub from: OdometrySource,
+}
+
+/// What a robot's odometry reckons with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum OdometrySource {
+    /// The robot's true motion: a robot that is blocked or pushed knows it. Sliding sideways is no motion of wheels.
+    #[default]
+    Motion,
+    /// What wheels and legs report: legs step as they are told, blocked or not, and neither feels a push.
+    Motors,
 }
 
 /// How long things are believed that are not seen.
@@ -93,31 +142,68 @@ pub struct MemorySpans {
 
 impl Validate for Sensing {
     fn validate(&self) -> Result<(), Fault> {
+        self.eyes.validate_as("eyes")?;
         check_all([
             ("memory.ball", self.memory.ball, Bound::SECONDS),
             ("memory.robots", self.memory.robots, Bound::SECONDS),
-        ])?;
-        match &self.eyes {
-            Eyes::Perfect => Ok(()),
-            Eyes::Real { camera, localisation, odometry } => check_all([
-                ("eyes.camera.field_of_view", camera.field_of_view, Bound::ANGLE.positive()),
-                ("eyes.camera.frame_hz", camera.frame_hz, Bound::RATE.positive()),
-                ("eyes.camera.latency", camera.latency, Bound::DELAY),
-                ("eyes.camera.ball_range", camera.ball_range, Bound::LENGTH.positive()),
-                ("eyes.camera.robot_range", camera.robot_range, Bound::LENGTH.positive()),
-                ("eyes.camera.range_noise", camera.range_noise, Bound::COEFFICIENT),
-                ("eyes.camera.range_floor", camera.range_floor, Bound::LENGTH),
-                ("eyes.camera.bearing_noise", camera.bearing_noise, Bound::ANGLE),
-                ("eyes.camera.detection", camera.detection, Bound::SHARE),
-                ("eyes.camera.visible_share", camera.visible_share, Bound::SHARE),
-                ("eyes.camera.false_positive", camera.false_positive, Bound::SHARE),
-                ("eyes.localisation.position", localisation.position, Bound::LENGTH),
-                ("eyes.localisation.heading", localisation.heading, Bound::ANGLE),
-                ("eyes.localisation.drift_time", localisation.drift_time, Bound::SECONDS.positive()),
-                ("eyes.localisation.jump_time", localisation.jump_time, Bound::SECONDS.positive()),
-                ("eyes.odometry.distance", odometry.distance, Bound::LENGTH),
-                ("eyes.odometry.heading", odometry.heading, Bound::ANGLE),
-            ]),
-        }
+        ])
+    }
+}
+
+impl Validate for Eyes {
+    fn validate(&self) -> Result<(), Fault> {
+        let Eyes::Real { camera, localisation, odometry } = self else { return Ok(()) };
+        camera.validate_as("camera")?;
+        localisation.validate_as("localisation")?;
+        check_all([
+            ("odometry.distance", odometry.distance, Bound::LENGTH),
+            ("odometry.heading", odometry.heading, Bound::ANGLE),
+        ])
+    }
+}
+
+impl Validate for Camera {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("field_of_view", self.field_of_view, Bound::ANGLE.positive()),
+            ("frame_hz", self.frame_hz, Bound::RATE.positive()),
+            ("latency", self.latency, Bound::DELAY),
+            ("ball_range", self.ball_range, Bound::LENGTH.positive()),
+            ("robot_range", self.robot_range, Bound::LENGTH.positive()),
+            ("range_noise", self.range_noise, Bound::COEFFICIENT),
+            ("range_floor", self.range_floor, Bound::LENGTH),
+            ("bearing_noise", self.bearing_noise, Bound::ANGLE),
+            ("detection", self.detection, Bound::SHARE),
+            ("visible_share", self.visible_share, Bound::SHARE),
+            ("false_positive", self.false_positive, Bound::SHARE),
+        ])
+    }
+}
+
+impl Validate for Localisation {
+    fn validate(&self) -> Result<(), Fault> {
+        self.landmarks.validate_as("landmarks")?;
+        check_all([
+            ("position", self.position, Bound::LENGTH),
+            ("heading", self.heading, Bound::ANGLE),
+            ("drift_time", self.drift_time, Bound::SECONDS.positive()),
+            ("jump_time", self.jump_time, Bound::SECONDS.positive()),
+            ("put_down.position", self.put_down.position, Bound::LENGTH),
+            ("put_down.heading", self.put_down.heading, Bound::ANGLE),
+        ])
+    }
+}
+
+impl Validate for Landmarks {
+    fn validate(&self) -> Result<(), Fault> {
+        check_all([
+            ("posts", self.posts, Bound::LENGTH),
+            ("beacons", self.beacons, Bound::LENGTH),
+            ("lines", self.lines, Bound::LENGTH),
+            ("one", self.one, Bound::SHARE),
+            ("line", self.line, Bound::SHARE),
+            ("looks_down", self.looks_down, Bound::LENGTH),
+            ("settle", self.settle, Bound::SECONDS.positive()),
+        ])
     }
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::game::requests::Calibration;
 use crate::robot::{
-    Camera, Chin, DifferentialDrive, Drive, Eyes, Localisation, MemorySpans, OdometryNoise, RobotKind,
-    Sensing, Walker,
+    Camera, Chin, DifferentialDrive, Drive, Eyes, Landmarks, Localisation, MemorySpans, OdometryNoise,
+    RobotKind, Sensing, Walker,
 };
 
 /// A robot's own copy of its values.
@@ -93,6 +93,13 @@ knobs! {
         "heading error" 0.0..45.0  1 "°"    heading,        "Error of its own heading";
         "drift time"    0.5..60.0  1 "s"    drift_time,     "How long an error lasts";
     }
+    "Landmarks" landmarks {
+        "posts"         0.0..15.0  1 "m"    posts,          "Farthest goal post that is recognised";
+        "beacons"       0.0..15.0  1 "m"    beacons,        "Farthest beacon that is recognised";
+        "lines"         0.0..5.0   1 "m"    lines,          "Farthest line or wall that is recognised";
+        "looks down"    0.0..1.0   2 "m"    looks_down,     "A ball nearer than this turns the camera down";
+        "settle time"   0.1..20.0  1 "s"    settle,         "How long beliefs take to follow the fixes";
+    }
     "Odometry" odometry {
         "way error"     0.0..0.5   2 "m"    distance,       "Error after one metre";
         "turn error"    0.0..20.0  1 "°"    heading,        "Error after half a metre";
@@ -134,6 +141,10 @@ fn camera(values: &mut RobotValues) -> Option<&mut Camera> {
 
 fn localisation(values: &mut RobotValues) -> Option<&mut Localisation> {
     eyes(values).map(|(_, localisation, _)| localisation)
+}
+
+fn landmarks(values: &mut RobotValues) -> Option<&mut Landmarks> {
+    localisation(values).and_then(|localisation| localisation.landmarks.as_mut())
 }
 
 fn odometry(values: &mut RobotValues) -> Option<&mut OdometryNoise> {

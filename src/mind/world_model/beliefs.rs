@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 
+use bevy::math::ops;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
@@ -14,7 +15,7 @@ use crate::comms::messages::{Inbox, TeamMessage};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{PlayerNumber, Team};
 use crate::pitch::Pitch;
-use crate::robot::{Eyes, Frame, MemorySpans, range_deviation, should_be_seen};
+use crate::robot::{Eyes, Frame, Localisation, MemorySpans, range_deviation, should_be_seen};
 
 /// What a robot believes, in its team frame.
 #[derive(Component, Clone, Debug, Default)]
@@ -73,7 +74,7 @@ pub struct RobotBelief {
     pub seen: u64,
 }
 
-/// Share of a localisation fix that is believed at once; the rest is dead reckoning.
+/// Share of a localisation fix that is believed at once where every frame brings one; the rest is dead reckoning.
 const FIX_GAIN: f32 = 0.2;
 /// A fix farther off than this is believed whole, as after being carried, m and rad.
 const FIX_JUMP: (f32, f32) = (1.0, 0.7);
@@ -153,13 +154,13 @@ impl WorldModel {
         }
     }
 
+    /// Takes in the fix of a frame, if it has one. A robot that does not know its place at all waits for a full one.
     fn localise(&mut self, frame: &Frame, eyes: &Eyes) {
+        let Some(fix) = frame.fix.filter(|fix| self.is_localised || fix.share >= 1.0) else { return };
         let then = self.pose_at(frame.taken);
-        let offset = frame.fix.position - then.position;
-        let turn = wrap_angle(frame.fix.heading - then.heading);
-        let jump = offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1;
-        let is_believed_whole = jump || !self.is_localised || *eyes == Eyes::Perfect;
-        let gain = if is_believed_whole { 1.0 } else { FIX_GAIN };
+        let offset = fix.pose.position - then.position;
+        let turn = wrap_angle(fix.pose.heading - then.heading);
+        let gain = if self.is_localised { fix_gain(fix.share, offset, turn, eyes) } else { 1.0 };
         // The way since then is as long as before, but leads elsewhere if the robot looked elsewhere.
         let turned = unit(gain * turn);
         let correct = |pose: Pose| Pose {
@@ -303,6 +304,18 @@ impl WorldModel {
             (self.ball, self.filter, self.misses) = (None, None, 0);
         }
         self.robots.retain(|robot| age(robot.seen) <= spans.robots);
+    }
+}
+
+/// The share of a fix that is believed at once. Among landmarks beliefs follow at their own pace, however far off they are.
+fn fix_gain(share: f32, offset: Vec2, turn: f32, eyes: &Eyes) -> f32 {
+    match eyes {
+        Eyes::Perfect => 1.0,
+        Eyes::Real { camera, localisation: Localisation { landmarks: Some(landmarks), .. }, .. } => {
+            1.0 - ops::exp(-share / (camera.frame_hz * landmarks.settle))
+        }
+        Eyes::Real { .. } if offset.length() > FIX_JUMP.0 || turn.abs() > FIX_JUMP.1 => 1.0,
+        Eyes::Real { .. } => FIX_GAIN,
     }
 }
 

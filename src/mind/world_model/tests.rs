@@ -5,7 +5,7 @@ use crate::geometry::Sighting;
 use crate::geometry::unit;
 use crate::geometry::wrap_angle;
 use crate::ids::Team;
-use crate::robot::Frame;
+use crate::robot::{Eyes, Fix, Frame};
 use crate::testing::perfect_sensing;
 use std::f32::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::data::Source;
 use crate::ids::Team::{Away, Home};
 use crate::rng::Seed;
 use crate::robot::{MemorySpans, Sensing, reckon};
-use crate::testing::{cye, idle, pitch};
+use crate::testing::{LANDMARKS, cye, idle, pitch};
 
 struct Bench {
     world: World,
@@ -26,10 +26,29 @@ struct Bench {
     start: Pose,
 }
 
-/// The shipped eyes: a ball is seen up to 3.2 m, 40° to either side.
+/// The shipped eyes: a ball is seen up to 3.2 m, 40° to either side. Every frame brings a fix that is believed at once if it
+/// is far off.
 fn real() -> Sensing {
     let text = include_str!("../../../assets/sensing/cye_2001.ron");
-    Source::new("eyes.ron", text).parse().expect("the shipped eyes are sound")
+    let mut sensing: Sensing = Source::new("eyes.ron", text).parse().expect("the shipped eyes are sound");
+    if let Eyes::Real { localisation, .. } = &mut sensing.eyes {
+        localisation.landmarks = None;
+    }
+    sensing
+}
+
+/// The same, but fixes come with landmarks, and beliefs follow them.
+fn among_landmarks() -> Sensing {
+    let mut sensing = real();
+    if let Eyes::Real { localisation, .. } = &mut sensing.eyes {
+        localisation.landmarks = Some(LANDMARKS);
+    }
+    sensing
+}
+
+/// A fix as good as any.
+fn full(pose: Pose) -> Option<Fix> {
+    Some(Fix { pose, share: 1.0 })
 }
 
 impl Bench {
@@ -79,7 +98,7 @@ impl Bench {
             taken,
             ball: ball.map(|at| Sighting::of(at, self.start)),
             robots,
-            fix: self.start,
+            fix: full(self.start),
             pan: 0.0,
             chin_down: false,
         }
@@ -141,7 +160,7 @@ fn a_frame_taken_between_two_decisions_is_placed_from_between_their_poses() {
     bench.decide(3);
     let taken_from = Pose::new(0.0, 0.0, 3.2);
     let ball = Some(Sighting { range: 2.0, bearing: 0.0 });
-    bench.show(Frame { taken: 2, ball, robots: vec![], fix: taken_from, pan: 0.0, chin_down: false });
+    bench.show(Frame { taken: 2, ball, robots: vec![], fix: full(taken_from), pan: 0.0, chin_down: false });
     let model = bench.decide(6);
     assert_at(model.ball.expect("it was seen").position, 2.0 * unit(3.2), 1e-4);
     assert_pose(model.pose, Pose::new(0.0, 0.0, 3.3));
@@ -199,11 +218,11 @@ fn things_are_as_old_as_the_frame_that_showed_them() {
 #[test]
 fn a_frame_is_taken_in_once_and_an_older_one_never() {
     let mut bench = Bench::still();
-    bench.show(Frame { fix: Pose::new(0.5, 0.0, 0.0), ..bench.frame(6, None, &[]) });
+    bench.show(Frame { fix: full(Pose::new(0.5, 0.0, 0.0)), ..bench.frame(6, None, &[]) });
     let once = bench.decide(6).pose;
     assert_pose(once, Pose::new(0.1, 0.0, 0.0));
     assert_pose(bench.decide(9).pose, once);
-    bench.show(Frame { fix: Pose::new(0.5, 0.0, 0.0), ..bench.frame(3, Some(v(1.0, 0.0)), &[]) });
+    bench.show(Frame { fix: full(Pose::new(0.5, 0.0, 0.0)), ..bench.frame(3, Some(v(1.0, 0.0)), &[]) });
     let model = bench.decide(12);
     assert_pose(model.pose, once);
     assert_eq!(model.ball, None);
@@ -213,7 +232,7 @@ fn a_frame_is_taken_in_once_and_an_older_one_never() {
 fn a_fix_is_believed_in_part_a_jump_of_it_at_once_and_a_perfect_one_always() {
     let believed = |sensing, fix| {
         let mut bench = Bench::new(sensing, Pose::default());
-        bench.show(Frame { fix, ..bench.frame(3, None, &[]) });
+        bench.show(Frame { fix: full(fix), ..bench.frame(3, None, &[]) });
         bench.decide(3).pose
     };
     assert_pose(believed(real(), Pose::new(0.9, 0.0, 0.5)), Pose::new(0.18, 0.0, 0.1));
@@ -229,7 +248,7 @@ fn a_late_jump_takes_the_way_that_was_driven_since_along() {
         bench.drive(0.1, 0.0);
         bench.decide(tick);
     }
-    bench.show(Frame { fix: Pose::new(2.0, 1.0, FRAC_PI_2), ..bench.frame(3, Some(v(1.0, 0.0)), &[]) });
+    bench.show(Frame { fix: full(Pose::new(2.0, 1.0, FRAC_PI_2)), ..bench.frame(3, Some(v(1.0, 0.0)), &[]) });
     let model = bench.decide(12);
     assert_pose(model.pose, Pose::new(2.0, 1.2, FRAC_PI_2));
     // The ball was a metre ahead of where the robot then was.
@@ -295,4 +314,53 @@ fn a_robot_knows_where_it_is_from_its_first_frame_on_or_when_it_was_told() {
         "the first frame is believed whole: {:?}",
         model.pose
     );
+}
+
+/// Frames with fixes of one share at a far place, from the first one on; where the robot believes it is after each.
+fn kidnapped(share: f32, frames: u64) -> Vec<Pose> {
+    let mut bench = Bench::new(among_landmarks(), Pose::default());
+    let place = Pose::new(3.0, -2.0, 2.0);
+    let frame =
+        |bench: &Bench, tick| Frame { fix: Some(Fix { pose: place, share }), ..bench.frame(tick, None, &[]) };
+    (1..=frames)
+        .map(|number| {
+            bench.show(frame(&bench, 6 * number));
+            bench.decide(6 * number).pose
+        })
+        .collect()
+}
+
+#[test]
+fn a_kidnap_is_not_cured_by_one_frame_but_by_some_seconds_of_fixes() {
+    let place = Vec2::new(3.0, -2.0);
+    let error = |pose: &Pose| pose.position.distance(place) / place.length();
+    let beliefs = kidnapped(1.0, 100);
+    assert!(error(&beliefs[0]) > 0.9, "{:?}", beliefs[0]);
+    // The settle time is a second and a half, which are fifteen frames.
+    assert!((error(&beliefs[14]) - 1.0 / std::f32::consts::E).abs() < 0.02, "{:?}", beliefs[14]);
+    assert!(error(&beliefs[99]) < 0.01 && wrap_angle(beliefs[99].heading - 2.0).abs() < 0.02);
+}
+
+#[test]
+fn a_weak_fix_moves_a_belief_less_and_a_frame_without_one_not_at_all() {
+    let moved = |share| kidnapped(share, 1)[0].position.length();
+    assert!(moved(0.5) < 0.6 * moved(1.0) && moved(0.5) > 0.4 * moved(1.0));
+    let mut bench = Bench::new(among_landmarks(), Pose::default());
+    bench.show(Frame { fix: None, ..bench.frame(3, Some(v(1.0, 0.0)), &[]) });
+    let model = bench.decide(3);
+    assert_pose(model.pose, Pose::default());
+    assert!(model.ball.is_some());
+}
+
+#[test]
+fn a_robot_that_knows_nothing_waits_for_a_full_fix_and_believes_it_at_once() {
+    let mut bench = Bench::new(among_landmarks(), Pose::default());
+    bench.world.entity_mut(bench.robot).insert(WorldModel::default());
+    let pose = Pose::new(2.0, 1.0, 0.5);
+    bench.show(Frame { fix: Some(Fix { pose, share: 0.9 }), ..bench.frame(3, None, &[]) });
+    assert!(!bench.decide(3).is_localised());
+    bench.show(Frame { fix: full(pose), ..bench.frame(6, None, &[]) });
+    let model = bench.decide(6);
+    assert!(model.is_localised());
+    assert_pose(model.pose, pose);
 }

@@ -4,7 +4,7 @@ use bevy::prelude::*;
 
 use crate::geometry::{Pose, wrap_angle};
 use crate::rng::Dice;
-use crate::robot::{Localisation, OdometryNoise};
+use crate::robot::{Localisation, OdometryNoise, PlaceError};
 
 /// A slowly drifting error: a first-order autoregressive process around zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,9 +21,15 @@ impl PoseError {
 
     /// A fresh error, as after a kidnap.
     pub fn drawn(localisation: &Localisation, dice: &mut Dice) -> PoseError {
+        let Localisation { position, heading, .. } = *localisation;
+        PoseError::of_hands(PlaceError { position, heading }, dice)
+    }
+
+    /// What a robot errs by that people have put down.
+    pub fn of_hands(error: PlaceError, dice: &mut Dice) -> PoseError {
         PoseError {
-            offset: Vec2::new(dice.normal(localisation.position), dice.normal(localisation.position)),
-            heading: dice.normal(localisation.heading.to_radians()),
+            offset: Vec2::new(dice.normal(error.position), dice.normal(error.position)),
+            heading: dice.normal(error.heading.to_radians()),
         }
     }
 
@@ -60,8 +66,14 @@ mod tests {
     use crate::rng::Seed;
     use crate::robot::reckon;
 
-    const DRIFT: Localisation =
-        Localisation { position: 0.2, heading: 5.0, drift_time: 10.0, jump_time: 1e9 };
+    const DRIFT: Localisation = Localisation {
+        position: 0.2,
+        heading: 5.0,
+        drift_time: 10.0,
+        jump_time: 1e9,
+        landmarks: None,
+        put_down: PlaceError { position: 0.0, heading: 0.0 },
+    };
 
     fn errors(n: usize, dt: f32) -> Vec<PoseError> {
         let mut dice = Dice::new(Seed(5), "test", None);

@@ -4,14 +4,16 @@
 
 use crate::robot::Camera;
 use crate::robot::Eyes;
+use crate::robot::Fix;
 use crate::robot::Frame;
-use crate::robot::Odometry;
+use crate::robot::Localisation;
 use crate::robot::Percepts;
 use crate::robot::Sensing;
-use crate::robot::reckon;
 
 mod camera;
+mod landmarks;
 mod localisation;
+mod odometry;
 #[cfg(test)]
 mod tests;
 
@@ -20,17 +22,17 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 
 use camera::{Blob, look};
-use localisation::{PoseError, odometry_error};
+use landmarks::{View, fix_share};
+use localisation::PoseError;
+use odometry::read_odometry;
 
 use crate::clock::Clock;
-use crate::geometry::{Pose, Sighting, Twist, wrap_angle};
+use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::ids::RobotId;
-use crate::pitch::BallKind;
+use crate::pitch::{BallKind, Pitch};
 use crate::rng::{Dice, Seed};
 use crate::robot::handling::Handling;
-use crate::robot::{
-    Drive, DriveCommand, Head, Misled, OffPitch, PutDown, Robot, RobotStart, SwitchedOn, Trailer,
-};
+use crate::robot::{Head, Misled, OffPitch, PutDown, Robot, RobotStart, SwitchedOn, Trailer};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
 use crate::world::ball::Ball;
@@ -77,6 +79,23 @@ impl Eyesight {
     fn blink(&mut self) {
         self.under_way.clear();
     }
+
+    /// What a robot takes its pose to be that people put down here.
+    fn put_down(&mut self, truth: Pose, sensing: &Sensing) -> Pose {
+        match &sensing.eyes {
+            Eyes::Perfect => truth,
+            Eyes::Real { localisation, .. } => {
+                PoseError::of_hands(localisation.put_down, &mut self.localisation_dice).applied(truth)
+            }
+        }
+    }
+}
+
+/// What a robot takes its pose in the team frame to be that people have put down, if it is a robot.
+pub fn told_place(world: &mut World, robot: Entity, truth: Pose) -> Pose {
+    let Some(sensing) = world.get::<Robot>(robot).map(|robot| robot.sensing.clone()) else { return truth };
+    let mut eyes = world.get_mut::<Eyesight>(robot);
+    eyes.as_mut().map_or(truth, |eyesight| eyesight.put_down(truth, &sensing))
 }
 
 /// Everything solid that a camera may see.
@@ -103,7 +122,7 @@ struct CameraPose {
 
 fn take_frames(
     clock: Res<Clock>,
-    (state, kind): (Res<MatchState>, Res<BallKind>),
+    (state, pitch, kind): (Res<MatchState>, Res<Pitch>, Res<BallKind>),
     ball: Single<&Pose, With<Ball>>,
     bodies: SeenBodies,
     trailers: Query<(&Trailer, &Pose)>,
@@ -123,14 +142,26 @@ fn take_frames(
                 eyesight.error = eyesight.error.drift(localisation, dt, &mut eyesight.localisation_dice);
                 let scene = scene.get_or_insert_with(|| Surroundings::of((&kind, *ball), &bodies, &trailers));
                 let gaze = CameraPose { from: pose, pan: head.pan, chin_down: handling.hides_ball() };
-                let mut frame = scene.seen_through(camera, id, gaze, &mut eyesight.camera_dice);
+                let (mut frame, robots) = scene.seen_through(camera, id, gaze, &mut eyesight.camera_dice);
+                let view = View {
+                    from: Pose { heading: pose.heading + head.pan, ..pose },
+                    field_of_view: camera.field_of_view,
+                    ball: frame.ball,
+                    robots: &robots,
+                };
+                let share = share_of(localisation, &pitch, &view);
                 frame.taken = clock.tick;
-                frame.fix = eyesight.error.applied(team_pose);
+                frame.fix = (share > 0.0).then(|| Fix { pose: eyesight.error.applied(team_pose), share });
                 eyesight.under_way.push_back(frame);
             }
             _ => {}
         }
     }
+}
+
+/// How much of a full fix a frame gives.
+fn share_of(localisation: &Localisation, pitch: &Pitch, view: &View) -> f32 {
+    localisation.landmarks.as_ref().map_or(1.0, |landmarks| fix_share(landmarks, pitch, view))
 }
 
 impl Surroundings {
@@ -157,13 +188,20 @@ impl Surroundings {
             robots: (self.robots.iter().filter(|(id, ..)| *id != own))
                 .map(|(id, at, _)| (id.team, Sighting::of(*at, pose)))
                 .collect(),
-            fix: team_pose,
+            fix: Some(Fix { pose: team_pose, share: 1.0 }),
             pan: 0.0,
             chin_down: false,
         }
     }
 
-    fn seen_through(&self, camera: &Camera, own: RobotId, gaze: CameraPose, dice: &mut Dice) -> Frame {
+    /// The frame, without a fix, and the robots before the camera.
+    fn seen_through(
+        &self,
+        camera: &Camera,
+        own: RobotId,
+        gaze: CameraPose,
+        dice: &mut Dice,
+    ) -> (Frame, Vec<Blob>) {
         let pose = Pose { heading: gaze.from.heading + gaze.pan, ..gaze.from };
         let from_body =
             |sighting: Sighting| Sighting { bearing: wrap_angle(sighting.bearing + gaze.pan), ..sighting };
@@ -188,7 +226,8 @@ impl Surroundings {
                     .map(|sighting| (id.team, from_body(sighting)))
             })
             .collect();
-        Frame { taken: 0, ball, robots, fix: Pose::default(), pan: gaze.pan, chin_down: gaze.chin_down }
+        let frame = Frame { taken: 0, ball, robots, fix: None, pan: gaze.pan, chin_down: gaze.chin_down };
+        (frame, units.into_iter().map(|(_, blob)| blob).collect())
     }
 }
 
@@ -204,36 +243,5 @@ fn deliver_frames(
         while eyesight.under_way.front().is_some_and(|frame| frame.taken + latency <= clock.tick) {
             percepts.frame = eyesight.under_way.pop_front();
         }
-    }
-}
-
-/// Robots that are told to move faster than this, m/s, and that move slower than the second, are stalled.
-const STALL: (f32, f32) = (0.12, 0.04);
-
-type Reckoned<'a> = (&'a Robot, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
-
-fn read_odometry(clock: Res<Clock>, mut robots: Query<Reckoned, Without<OffPitch>>) {
-    for (robot, pose, twist, command, mut odometry) in &mut robots {
-        odometry.speed = twist.linear.dot(pose.forward());
-        odometry.turn_rate = twist.angular;
-        // Wheels do not feel that they slide sideways.
-        let aside = match robot.kind.drive {
-            Drive::Differential(_) => 0.0,
-            Drive::Walker(_) => twist.linear.dot(pose.forward().perp()),
-        };
-        let mut way = Vec2::new(odometry.speed, aside) * clock.dt;
-        let mut turn = twist.angular * clock.dt;
-        odometry.unjudged += way.length();
-        if let Eyes::Real { odometry: noise, .. } = &robot.sensing.eyes
-            && robot.senses(&clock)
-        {
-            let distance = std::mem::take(&mut odometry.unjudged);
-            let (more, more_turn) = odometry_error(noise, distance, &mut odometry.dice);
-            (way.x, turn) = (way.x + more, turn + more_turn);
-        }
-        odometry.pose = reckon(odometry.pose, way, turn);
-        let moved = Vec2::new(odometry.speed, aside).length() + 0.1 * odometry.turn_rate.abs();
-        odometry.stalled_for =
-            if command.speed() > STALL.0 && moved < STALL.1 { odometry.stalled_for + clock.dt } else { 0.0 };
     }
 }

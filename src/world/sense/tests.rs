@@ -13,9 +13,10 @@ use std::sync::Arc;
 
 use super::*;
 use crate::data::Source;
+use crate::geometry::Twist;
 use crate::ids::Team::{Away, Home};
-use crate::robot::WheelSpeeds;
-use crate::testing::{BALL, cye};
+use crate::robot::{DriveCommand, OdometryNoise, OdometrySource, PlaceError, WheelSpeeds};
+use crate::testing::{BALL, LANDMARKS, cye, pitch};
 use crate::world::referee::RuleBook;
 
 /// SeenBodies and eyes, moved by hand.
@@ -29,6 +30,7 @@ fn sharp(latency: f32) -> Sensing {
         *camera = Camera { latency, detection: 1.0, range_noise: 0.0, range_floor: 0.0, ..*camera };
         *camera = Camera { bearing_noise: 0.0, false_positive: 0.0, ..*camera };
         (localisation.position, localisation.heading) = (0.0, 0.0);
+        localisation.landmarks = None;
     }
     sensing
 }
@@ -47,6 +49,7 @@ impl Bench {
         let mut world = World::new();
         world.insert_resource(Clock::new(60.0));
         world.insert_resource(MatchState::new(Home, &RuleBook::default()));
+        world.insert_resource(pitch());
         world.insert_resource(BALL);
         world.spawn((Ball, Pose { position: ball, heading: 0.0 }));
         Bench(world)
@@ -174,7 +177,7 @@ fn a_robot_knows_its_place_in_its_team_frame() {
     for sensing in [sharp(0.0), perfect()] {
         let mut bench = Bench::new(Vec2::X);
         let robot = bench.robot(&sensing, Away, 0, Pose::new(1.0, 2.0, 0.0));
-        let fix = bench.sense(0, robot).expect("at once").fix;
+        let fix = bench.sense(0, robot).expect("at once").fix.expect("a fix with every frame").pose;
         assert_eq!(fix.position, Vec2::new(-1.0, -2.0));
         assert!((fix.heading.abs() - std::f32::consts::PI).abs() < 1e-6, "{fix:?}");
     }
@@ -229,4 +232,58 @@ fn the_wheels_report_way_and_turn_at_every_tick_and_sliding_sideways_is_none() {
     bench.0.entity_mut(robot).insert(Twist { linear: Vec2::ZERO, angular: 1.2 });
     let odometry = bench.odometry(62, robot);
     assert!((odometry.pose.heading - 0.02).abs() < 1e-6 && odometry.turn_rate == 1.2, "{odometry:?}");
+}
+
+/// The shipped eyes among landmarks, without errors of localisation and with an odometry of motors.
+fn among_landmarks() -> Sensing {
+    let mut sensing = noisy();
+    if let Eyes::Real { camera, localisation, odometry } = &mut sensing.eyes {
+        camera.latency = 0.0;
+        (localisation.position, localisation.heading) = (0.0, 0.0);
+        localisation.landmarks = Some(LANDMARKS);
+        *odometry = OdometryNoise { distance: 0.0, heading: 0.0, from: OdometrySource::Motors };
+    }
+    sensing
+}
+
+#[test]
+fn a_frame_brings_a_fix_only_with_landmarks_in_view() {
+    let looking = |heading: f32| {
+        let mut bench = Bench::new(Vec2::X);
+        let robot = bench.robot(&among_landmarks(), Home, 0, Pose::new(1.5, -0.2, heading));
+        bench.sense(0, robot).expect("at once").fix
+    };
+    let at_the_goal = looking(0.0).expect("it sees a goal");
+    assert_eq!((at_the_goal.share, at_the_goal.pose.position), (1.0, Vec2::new(1.5, -0.2)));
+    assert_eq!(looking(std::f32::consts::FRAC_PI_2), None, "the side wall is too far");
+}
+
+#[test]
+fn the_odometry_of_motors_feels_no_push_and_that_of_motion_does() {
+    let pushed = |sensing: &Sensing| {
+        let mut bench = Bench::new(Vec2::X);
+        let robot = bench.robot(sensing, Home, 0, Pose::default());
+        bench.0.entity_mut(robot).insert(Twist { linear: Vec2::X, angular: 2.0 });
+        bench.odometry(61, robot).pose
+    };
+    assert_eq!(pushed(&among_landmarks()), Pose::default());
+    assert!(pushed(&perfect()).position.x > 0.01);
+}
+
+#[test]
+fn people_tell_a_robot_its_place_as_well_as_its_eyes_say() {
+    let truth = Pose::new(1.0, -0.5, 2.0);
+    let mut handled = noisy();
+    if let Eyes::Real { localisation, .. } = &mut handled.eyes {
+        localisation.put_down = PlaceError { position: 0.1, heading: 5.0 };
+    }
+    let error = |sensing: &Sensing| {
+        let mut bench = Bench::new(Vec2::X);
+        let robot = bench.robot(sensing, Home, 0, Pose::default());
+        let errors = (0..400).map(|_| told_place(&mut bench.0, robot, truth).position.x - truth.position.x);
+        let (square, n) = errors.fold((0.0, 0.0), |(sum, n), error: f32| (sum + error * error, n + 1.0));
+        (square / n).sqrt()
+    };
+    assert_eq!(error(&perfect()), 0.0);
+    assert!((error(&handled) - 0.1).abs() < 0.015, "{}", error(&handled));
 }

@@ -29,12 +29,14 @@ pub(super) fn draw_field_of_view(pens: &mut Pens, eyes: &Eyes, from: Pose, pixel
     }
 }
 
-/// White dots where the things of the newest frame were, if the robot was where its localisation said.
+/// White dots where the things of the newest frame were, if the robot was where it believes to be now, or where the frame
+/// told it to be.
 pub(super) fn draw_frame(pens: &mut Pens, robot: &SelectedRobot, pixel: f32) {
     let Some(frame) = &robot.of.percepts.frame else { return };
+    let from = frame.fix.map_or(robot.of.model.pose, |fix| fix.pose);
     let robots = frame.robots.iter().map(|(_, sighting)| (*sighting, 4.0));
     for (sighting, reach) in frame.ball.map(|ball| (ball, 4.0)).into_iter().chain(robots) {
-        let at = robot.ends.turn(sighting.placed(frame.fix));
+        let at = robot.ends.turn(sighting.placed(from));
         for radius in outlines::rings(reach, 2.5) {
             pens.strong.circle_2d(at, radius * pixel, colours::SENSED).resolution(16);
         }

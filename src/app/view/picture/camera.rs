@@ -186,6 +186,7 @@ mod tests {
             penalty_area: crate::pitch::PenaltyArea { depth: 0.65, width: 1.3 },
             centre_circle_radius: 0.18,
             penalty_spots: vec![Vec2::ZERO],
+            beacons: Vec::new(),
             walls,
         };
         let open = zone_to_show(&pitch, std::iter::empty());

@@ -45,6 +45,7 @@ pub fn pitch() -> Pitch {
         penalty_area: PenaltyArea { depth: 1.0, width: 3.0 },
         centre_circle_radius: 0.5,
         penalty_spots: spots.collect(),
+        beacons: Vec::new(),
         walls: Walls { thickness: 0.5, friction: 0.2, restitution: 0.6, margin: 0.0 },
     }
 }

@@ -1,0 +1,103 @@
+//! What wheels and legs report of a robot's way.
+
+use bevy::prelude::*;
+
+use super::localisation::odometry_error;
+use crate::clock::Clock;
+use crate::geometry::{Pose, Twist};
+use crate::robot::{
+    Drive, DriveCommand, Eyes, Odometry, OdometryNoise, OdometrySource, OffPitch, Robot, RobotKind,
+    WheelSpeeds, reckon,
+};
+
+/// Robots that are told to move faster than this, m/s, and that move slower than the second, are stalled.
+const STALL: (f32, f32) = (0.12, 0.04);
+
+/// A velocity in the robot's own frame, m/s ahead and to the left, and its turn, rad/s.
+type Motion = (Vec2, f32);
+
+type Reckoned<'a> = (&'a Robot, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut Odometry);
+
+pub(super) fn read_odometry(clock: Res<Clock>, mut robots: Query<Reckoned, Without<OffPitch>>) {
+    for (robot, pose, twist, command, mut odometry) in &mut robots {
+        let truth = felt(&robot.kind, pose, twist);
+        let (velocity, turn_rate) = match &robot.sensing.eyes {
+            Eyes::Real { odometry: OdometryNoise { from: OdometrySource::Motors, .. }, .. } => {
+                reported(*command, &robot.kind, truth)
+            }
+            _ => truth,
+        };
+        (odometry.speed, odometry.turn_rate) = (velocity.x, turn_rate);
+        let (mut way, mut turn) = (velocity * clock.dt, turn_rate * clock.dt);
+        odometry.unjudged += way.length();
+        if let Eyes::Real { odometry: noise, .. } = &robot.sensing.eyes
+            && robot.senses(&clock)
+        {
+            let distance = std::mem::take(&mut odometry.unjudged);
+            let (more, more_turn) = odometry_error(noise, distance, &mut odometry.dice);
+            (way.x, turn) = (way.x + more, turn + more_turn);
+        }
+        odometry.pose = reckon(odometry.pose, way, turn);
+        let moved = truth.0.length() + 0.1 * truth.1.abs();
+        odometry.stalled_for =
+            if command.speed() > STALL.0 && moved < STALL.1 { odometry.stalled_for + clock.dt } else { 0.0 };
+    }
+}
+
+/// How a robot moves, as far as wheels or legs could feel it. Wheels do not feel that they slide sideways.
+fn felt(kind: &RobotKind, pose: &Pose, twist: &Twist) -> Motion {
+    let aside = match kind.drive {
+        Drive::Differential(_) => 0.0,
+        Drive::Walker(_) => twist.linear.dot(pose.forward().perp()),
+    };
+    (Vec2::new(twist.linear.dot(pose.forward()), aside), twist.angular)
+}
+
+/// The motion that motors report: legs step as they are told, whatever comes of it. A wheel that is blocked stalls and its
+/// encoder tells so, but its gears let nobody turn it faster than it is told, or back: then it slips.
+fn reported(command: DriveCommand, kind: &RobotKind, (velocity, turn_rate): Motion) -> Motion {
+    match (command, &kind.drive) {
+        (DriveCommand::Gait(gait), _) => (Vec2::new(gait.ahead, gait.left), gait.turn),
+        (DriveCommand::Wheels(told), Drive::Differential(drive)) => {
+            let offset = turn_rate * drive.track / 2.0;
+            let turned = |told: f32, ground: f32| ground.clamp(told.min(0.0), told.max(0.0));
+            let wheels = WheelSpeeds {
+                left: turned(told.left, velocity.x - offset),
+                right: turned(told.right, velocity.x + offset),
+            };
+            (Vec2::X * ((wheels.left + wheels.right) / 2.0), (wheels.right - wheels.left) / drive.track)
+        }
+        (DriveCommand::Wheels(_), Drive::Walker(_)) => (Vec2::ZERO, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Gait;
+    use crate::testing::cye;
+
+    #[test]
+    fn legs_report_the_steps_that_they_were_told_whatever_comes_of_them() {
+        let gait = Gait { ahead: 0.3, left: -0.1, turn: 0.5 };
+        for truth in [(Vec2::ZERO, 0.0), (Vec2::new(-0.2, 0.4), -1.0)] {
+            assert_eq!(reported(DriveCommand::Gait(gait), &cye(), truth), (Vec2::new(0.3, -0.1), 0.5));
+        }
+    }
+
+    #[test]
+    fn wheels_report_that_they_are_blocked_and_feel_no_push() {
+        let report = |left: f32, right: f32, ahead: f32, turn: f32| {
+            let told = DriveCommand::Wheels(WheelSpeeds { left, right });
+            let (velocity, turn) = reported(told, &cye(), (Vec2::new(ahead, 0.0), turn));
+            [velocity.x, turn].map(|number| (number * 1000.0).round() / 1000.0)
+        };
+        assert_eq!(report(0.3, 0.3, 0.3, 0.0), [0.3, 0.0], "it drives");
+        assert_eq!(report(0.3, 0.3, 0.1, 0.0), [0.1, 0.0], "it is held up");
+        assert_eq!(report(0.3, 0.3, 0.0, 0.0), [0.0, 0.0], "it is blocked");
+        assert_eq!(report(0.3, 0.3, 0.6, 0.0), [0.3, 0.0], "it is pushed on");
+        assert_eq!(report(0.3, 0.3, -0.2, 0.0), [0.0, 0.0], "it is pushed back");
+        assert_eq!(report(0.0, 0.0, 0.5, 2.0), [0.0, 0.0], "it stands, and is pushed and turned");
+        assert_eq!(report(-0.3, -0.3, -0.2, 0.0), [-0.2, 0.0], "it reverses");
+    }
+}
