@@ -62,5 +62,6 @@ pub const LANDMARKS: Landmarks =
 
 /// Eyes that see everything.
 pub fn perfect_sensing() -> Sensing {
-    Sensing { name: "perfect".into(), eyes: Eyes::Perfect, memory: MemorySpans { ball: 3.0, robots: 2.0 } }
+    let memory = MemorySpans { ball: 3.0, robots: 2.0, ..MemorySpans::default() };
+    Sensing { name: "perfect".into(), eyes: Eyes::Perfect, memory }
 }

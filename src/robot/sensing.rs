@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Bound, Fault, Validate, check_all};
+use crate::data::{Bound, Fault, Validate, check_all, check_count};
 
 /// Eyes, localisation, odometry and memory of a robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,6 +55,9 @@ pub struct Camera {
     pub visible_share: f32,
     /// Chance per frame to take something else for the ball.
     pub false_positive: f32,
+    /// Chance per sighting of a robot to take its marker for that of the other team.
+    #[serde(default)]
+    pub wrong_team: f32,
 }
 
 /// Self-localisation: fixes that are wrong by a slowly drifting amount, and what brings them.
@@ -130,14 +133,23 @@ pub enum OdometrySource {
     Motors,
 }
 
-/// How long things are believed that are not seen.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// How long things are believed that are not seen, and what is believed of a ball among robots.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MemorySpans {
     /// s.
     pub ball: f32,
     /// s.
     pub robots: f32,
+    /// How long a ball may be hidden behind robots before frames without it count as misses, s; for ever without it.
+    #[serde(default)]
+    pub hidden_ball: Option<f32>,
+    /// The velocity of a ball is unknown while a robot is seen nearer to it than this, m.
+    #[serde(default)]
+    pub touched_ball: f32,
+    /// Readings of another place, near each other, until a ball that was believed elsewhere is believed there.
+    #[serde(default)]
+    pub jump_readings: u32,
 }
 
 impl Validate for Sensing {
@@ -146,9 +158,20 @@ impl Validate for Sensing {
         check_all([
             ("memory.ball", self.memory.ball, Bound::SECONDS),
             ("memory.robots", self.memory.robots, Bound::SECONDS),
-        ])
+            ("memory.hidden_ball", self.memory.hidden_ball.unwrap_or(0.0), Bound::SECONDS),
+            ("memory.touched_ball", self.memory.touched_ball, Bound::LENGTH),
+        ])?;
+        check_count(
+            "memory.jump_readings",
+            "the number of readings",
+            self.memory.jump_readings as usize,
+            0..=MOST_READINGS,
+        )
     }
 }
+
+/// Readings of a ball.
+const MOST_READINGS: usize = 1000;
 
 impl Validate for Eyes {
     fn validate(&self) -> Result<(), Fault> {
@@ -176,6 +199,7 @@ impl Validate for Camera {
             ("detection", self.detection, Bound::SHARE),
             ("visible_share", self.visible_share, Bound::SHARE),
             ("false_positive", self.false_positive, Bound::SHARE),
+            ("wrong_team", self.wrong_team, Bound::SHARE),
         ])
     }
 }

@@ -84,6 +84,7 @@ knobs! {
         "angle error"   0.0..15.0  1 "°"    bearing_noise,  "Error of a measured angle";
         "detection"     0.0..1.0   2 ""     detection,      "Chance that a frame shows what is in full view and near";
         "phantoms"      0.0..0.05  4 ""     false_positive, "Chance that a frame takes something else for the ball";
+        "wrong team"    0.0..1.0   3 ""     wrong_team,     "Chance to take a robot for one of the other team";
         "latency"       0.0..0.5   2 "s"    latency,        "From the shutter to the percept";
         "ball range"    0.5..8.0   1 "m"    ball_range,     "Farthest ball that is seen";
         "robot range"   0.5..8.0   1 "m"    robot_range,    "Farthest marker that is seen";

@@ -51,14 +51,25 @@ impl BallFilter {
         }
     }
 
+    /// Whether a reading with this standard deviation is too far off to be one of the ball that is believed in.
+    pub fn is_far(self, reading: Vec2, deviation: f32) -> bool {
+        let total = self.position_variance + deviation * deviation;
+        (reading - self.position).length_squared() > GATE * GATE * total
+    }
+
+    /// The estimate of a ball that others touch: nobody knows how it moves.
+    pub fn touched(self) -> BallFilter {
+        let velocity_variance = FIRST_SPEED * FIRST_SPEED;
+        BallFilter { velocity: Vec2::ZERO, covariance: 0.0, velocity_variance, ..self }
+    }
+
     /// The estimate after a reading with this standard deviation in metres.
     pub fn update(self, reading: Vec2, deviation: f32) -> BallFilter {
-        let noise = deviation * deviation;
-        let surprise = reading - self.position;
-        let total = self.position_variance + noise;
-        if surprise.length_squared() > GATE * GATE * total {
+        if self.is_far(reading, deviation) {
             return BallFilter::new(reading, deviation);
         }
+        let surprise = reading - self.position;
+        let total = self.position_variance + deviation * deviation;
         let (position_gain, velocity_gain) = (self.position_variance / total, self.covariance / total);
         BallFilter {
             position: self.position + position_gain * surprise,

@@ -15,7 +15,7 @@ use crate::comms::messages::{Inbox, TeamMessage};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{PlayerNumber, Team};
 use crate::pitch::Pitch;
-use crate::robot::{Eyes, Frame, Localisation, MemorySpans, range_deviation, should_be_seen};
+use crate::robot::{Eyes, Frame, Localisation, MemorySpans, Sensing, range_deviation, should_be_seen};
 
 /// What a robot believes, in its team frame.
 #[derive(Component, Clone, Debug, Default)]
@@ -35,6 +35,10 @@ pub struct WorldModel {
     odometry: Option<Pose>,
     last_frame: Option<u64>,
     misses: u32,
+    /// How long robots have hidden the ball since it was seen last, s.
+    hidden_for: f32,
+    /// Where something was seen far from the ball, and how often.
+    elsewhere: Option<(Vec2, u32)>,
 }
 
 /// A ball that a robot believes in.
@@ -86,6 +90,8 @@ const ONE_PLACE: f32 = 0.35;
 pub(super) const MOST_OF_A_TEAM: usize = 8;
 /// Share of a new sighting in the place of a known robot.
 const SIGHTING_GAIN: f32 = 0.6;
+/// Readings nearer to each other than this may be of one ball, m, or than twice their deviation.
+const SAME_BALL: f32 = 0.3;
 /// After this many frames that should have shown the ball and did not, it is gone.
 const MISSES: u32 = 6;
 /// Deceleration that robots expect of a rolling ball, m/s².
@@ -177,21 +183,17 @@ impl WorldModel {
         let position = self.pose.to_field(ahead);
         self.filter = Some(BallFilter::new(position, 0.02));
         self.ball = Some(BallBelief { position, velocity: Vec2::ZERO, seen: tick });
-        self.misses = 0;
+        (self.misses, self.hidden_for, self.elsewhere) = (0, 0.0, None);
     }
 
-    fn see_ball(&mut self, frame: &Frame, eyes: &Eyes, dt_since_last: f32) {
-        let then = self.pose_at(frame.taken);
-        let filter = self.filter.map(|filter| filter.predict(dt_since_last, EXPECTED_ROLLING));
-        match frame.ball {
-            Some(sighting) => {
-                let deviation = deviation(eyes, sighting);
-                let at = sighting.placed(then);
-                self.filter = Some(match filter {
-                    Some(filter) => filter.update(at, deviation),
-                    None => BallFilter::new(at, deviation),
-                });
-                self.misses = 0;
+    fn see_ball(&mut self, frame: &Frame, sensing: &Sensing, dt_since_last: f32) {
+        let (then, eyes) = (self.pose_at(frame.taken), &sensing.eyes);
+        self.filter = self.filter.map(|filter| filter.predict(dt_since_last, EXPECTED_ROLLING));
+        let reading = frame.ball.map(|sighting| (sighting.placed(then), deviation(eyes, sighting)));
+        match reading.and_then(|(at, deviation)| self.believed(at, deviation, sensing.memory)) {
+            Some(filter) => {
+                self.filter = Some(self.as_touched(filter, frame, then, sensing.memory));
+                (self.misses, self.hidden_for, self.elsewhere) = (0, 0.0, None);
                 self.ball = self.filter.map(|filter| BallBelief {
                     position: filter.position,
                     velocity: filter.velocity,
@@ -199,12 +201,42 @@ impl WorldModel {
                 });
             }
             None => {
-                self.filter = filter;
-                let expected = filter.map(|filter| Sighting::of(filter.position, then));
-                let missed = |expected| should_be_seen(eyes, frame, expected) && !is_hidden(expected, frame);
-                self.misses += u32::from(expected.is_some_and(missed));
+                self.filter = self.filter.map(|filter| self.as_touched(filter, frame, then, sensing.memory));
+                let expected = self.filter.map(|filter| Sighting::of(filter.position, then));
+                if let Some(expected) = expected.filter(|expected| should_be_seen(eyes, frame, *expected)) {
+                    self.miss_ball(is_hidden(expected, frame), dt_since_last, sensing.memory);
+                }
             }
         }
+    }
+
+    /// What is believed of the ball after a reading, if the reading is believed: one far from where the ball should be needs
+    /// others near it.
+    fn believed(&mut self, at: Vec2, deviation: f32, memory: MemorySpans) -> Option<BallFilter> {
+        let Some(filter) = self.filter else { return Some(BallFilter::new(at, deviation)) };
+        if !filter.is_far(at, deviation) {
+            return Some(filter.update(at, deviation));
+        }
+        let near = (self.elsewhere).filter(|(other, _)| other.distance(at) < SAME_BALL.max(2.0 * deviation));
+        let readings = near.map_or(1, |(_, readings)| readings + 1);
+        self.elsewhere = Some((at, readings));
+        (readings >= memory.jump_readings).then(|| BallFilter::new(at, deviation))
+    }
+
+    fn as_touched(&self, filter: BallFilter, frame: &Frame, from: Pose, memory: MemorySpans) -> BallFilter {
+        let touches = |(_, robot): &(Team, Sighting)| {
+            robot.placed(from).distance(filter.position) < memory.touched_ball
+        };
+        if frame.robots.iter().any(touches) { filter.touched() } else { filter }
+    }
+
+    /// A frame should have shown the ball and did not.
+    fn miss_ball(&mut self, is_hidden: bool, dt: f32, memory: MemorySpans) {
+        if is_hidden {
+            self.hidden_for += dt;
+        }
+        let excused = is_hidden && memory.hidden_ball.is_none_or(|longest| self.hidden_for <= longest);
+        self.misses += u32::from(!excused);
     }
 
     /// Each sighting renews one belief or adds one. Noise makes two beliefs of one robot now and then; they are made one
@@ -261,14 +293,14 @@ impl WorldModel {
     }
 
     /// Takes in a camera frame, unless it is known already.
-    pub(super) fn see(&mut self, frame: &Frame, eyes: &Eyes, clock: &Clock) {
+    pub(super) fn see(&mut self, frame: &Frame, sensing: &Sensing, clock: &Clock) {
         if Some(frame.taken) <= self.last_frame {
             return;
         }
         let since = frame.taken - self.last_frame.unwrap_or(frame.taken);
-        self.localise(frame, eyes);
-        self.see_ball(frame, eyes, since as f32 * clock.dt);
-        self.see_robots(frame, eyes);
+        self.localise(frame, &sensing.eyes);
+        self.see_ball(frame, sensing, since as f32 * clock.dt);
+        self.see_robots(frame, &sensing.eyes);
         self.last_frame = Some(frame.taken);
     }
 
@@ -301,7 +333,8 @@ impl WorldModel {
     pub(super) fn forget(&mut self, spans: MemorySpans, clock: &Clock) {
         let age = |seen: u64| clock.tick.saturating_sub(seen) as f32 * clock.dt;
         if self.misses >= MISSES || self.ball.is_some_and(|ball| age(ball.seen) > spans.ball) {
-            (self.ball, self.filter, self.misses) = (None, None, 0);
+            (self.ball, self.filter, self.elsewhere) = (None, None, None);
+            (self.misses, self.hidden_for) = (0, 0.0);
         }
         self.robots.retain(|robot| age(robot.seen) <= spans.robots);
     }

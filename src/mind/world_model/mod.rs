@@ -56,7 +56,7 @@ fn update_world_models(
         let model = &mut *model;
         model.dead_reckon(odometry.pose, clock.tick);
         if let Some(frame) = &percepts.frame {
-            model.see(frame, &robot.sensing.eyes, &clock);
+            model.see(frame, &robot.sensing, &clock);
         }
         if let Some(chin) = robot.kind.chin.filter(|_| handling.holds()) {
             model.feel_ball(chin.pocket(), clock.tick);

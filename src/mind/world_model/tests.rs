@@ -34,6 +34,7 @@ fn real() -> Sensing {
     if let Eyes::Real { localisation, .. } = &mut sensing.eyes {
         localisation.landmarks = None;
     }
+    sensing.memory = MemorySpans { ball: 3.0, robots: 2.0, ..MemorySpans::default() };
     sensing
 }
 
@@ -299,6 +300,7 @@ fn a_ball_at_the_edge_of_view_or_range_may_be_missed_for_the_memorys_span() {
 }
 
 mod robots;
+mod scrum;
 
 #[test]
 fn a_robot_knows_where_it_is_from_its_first_frame_on_or_when_it_was_told() {

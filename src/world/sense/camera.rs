@@ -97,6 +97,7 @@ mod tests {
         detection: 0.95,
         visible_share: 0.3,
         false_positive: 0.0,
+        wrong_team: 0.0,
     };
 
     fn ahead(range: f32, radius: f32) -> Blob {

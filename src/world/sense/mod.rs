@@ -55,6 +55,7 @@ pub struct Eyesight {
     misled: PoseError,
     under_way: VecDeque<Frame>,
     camera_dice: Dice,
+    identity_dice: Dice,
     localisation_dice: Dice,
 }
 
@@ -71,6 +72,7 @@ impl Eyesight {
             misled: PoseError::default(),
             under_way: VecDeque::new(),
             camera_dice: Dice::new(seed, "camera", Some(robot)),
+            identity_dice: Dice::new(seed, "identity", Some(robot)),
             localisation_dice,
         }
     }
@@ -150,11 +152,21 @@ fn take_frames(
                     robots: &robots,
                 };
                 let share = share_of(localisation, &pitch, &view);
+                mistake_teams(&mut frame, camera.wrong_team, &mut eyesight.identity_dice);
                 frame.taken = clock.tick;
                 frame.fix = (share > 0.0).then(|| Fix { pose: eyesight.error.applied(team_pose), share });
                 eyesight.under_way.push_back(frame);
             }
             _ => {}
+        }
+    }
+}
+
+/// Takes some robots of a frame for robots of the other team.
+fn mistake_teams(frame: &mut Frame, chance: f32, dice: &mut Dice) {
+    for (team, _) in &mut frame.robots {
+        if dice.chance(chance) {
+            *team = team.opponent();
         }
     }
 }

@@ -28,7 +28,7 @@ fn sharp(latency: f32) -> Sensing {
     let mut sensing: Sensing = Source::new("eyes.ron", text).parse().expect("the shipped eyes are sound");
     if let Eyes::Real { camera, localisation, .. } = &mut sensing.eyes {
         *camera = Camera { latency, detection: 1.0, range_noise: 0.0, range_floor: 0.0, ..*camera };
-        *camera = Camera { bearing_noise: 0.0, false_positive: 0.0, ..*camera };
+        *camera = Camera { bearing_noise: 0.0, false_positive: 0.0, wrong_team: 0.0, ..*camera };
         (localisation.position, localisation.heading) = (0.0, 0.0);
         localisation.landmarks = None;
     }
@@ -36,7 +36,8 @@ fn sharp(latency: f32) -> Sensing {
 }
 
 fn perfect() -> Sensing {
-    Sensing { name: "perfect".into(), eyes: Eyes::Perfect, memory: MemorySpans { ball: 3.0, robots: 2.0 } }
+    let memory = MemorySpans { ball: 3.0, robots: 2.0, ..MemorySpans::default() };
+    Sensing { name: "perfect".into(), eyes: Eyes::Perfect, memory }
 }
 
 fn noisy() -> Sensing {
@@ -286,4 +287,18 @@ fn people_tell_a_robot_its_place_as_well_as_its_eyes_say() {
     };
     assert_eq!(error(&perfect()), 0.0);
     assert!((error(&handled) - 0.1).abs() < 0.015, "{}", error(&handled));
+}
+
+#[test]
+fn the_team_of_a_robot_is_mistaken_as_often_as_the_eyes_say() {
+    let mut sensing = sharp(0.0);
+    if let Eyes::Real { camera, .. } = &mut sensing.eyes {
+        camera.wrong_team = 0.2;
+    }
+    let mut bench = Bench::new(Vec2::X);
+    let robot = bench.robot(&sensing, Home, 0, Pose::default());
+    bench.robot(&sensing, Away, 0, Pose::new(1.5, 0.5, 0.0));
+    let frames = (0..2000).map(|frame| bench.sense(6 * frame, robot).expect("at once"));
+    let wrong = frames.filter(|frame| frame.robots[0].0 == Home).count();
+    assert!((350..450).contains(&wrong), "{wrong} of 2000");
 }

@@ -82,7 +82,7 @@ fn two_beliefs_of_one_robot_become_one_where_they_meet() {
 
 #[test]
 fn the_robots_believed_in_are_bounded_and_the_longest_unseen_give_way() {
-    let memory = MemorySpans { ball: 3.0, robots: 1e6 };
+    let memory = MemorySpans { ball: 3.0, robots: 1e6, ..MemorySpans::default() };
     let mut bench = Bench::new(Sensing { memory, ..perfect_sensing() }, Pose::default());
     let place = |frame: u64| v(1.0 + (frame % 5) as f32, -4.0 + 0.8 * (frame / 5) as f32);
     bench.sees(6, None, &[(Home, v(-3.0, 0.0))]);
