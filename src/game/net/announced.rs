@@ -132,7 +132,7 @@ fn penalty(reason: RemovalReason) -> Penalty {
     match reason {
         RemovalReason::SecondDefender | RemovalReason::IllegalDefender => Penalty::IllegalPosition,
         RemovalReason::BallHolding => Penalty::BallHolding,
-        RemovalReason::Pushing => Penalty::Pushing,
+        RemovalReason::Pushing | RemovalReason::GoaliePushing | RemovalReason::Charging => Penalty::Pushing,
         RemovalReason::LeftTheField => Penalty::LeavingTheField,
         RemovalReason::LocalStuck => Penalty::LocalGameStuck,
         RemovalReason::RefereeBox | RemovalReason::Ordered => Penalty::Manual,
@@ -185,6 +185,8 @@ mod tests {
             (RemovalReason::IllegalDefender, Penalty::IllegalPosition),
             (RemovalReason::BallHolding, Penalty::BallHolding),
             (RemovalReason::Pushing, Penalty::Pushing),
+            (RemovalReason::GoaliePushing, Penalty::Pushing),
+            (RemovalReason::Charging, Penalty::Pushing),
             (RemovalReason::LeftTheField, Penalty::LeavingTheField),
             (RemovalReason::LocalStuck, Penalty::LocalGameStuck),
             (RemovalReason::Ordered, Penalty::Manual),

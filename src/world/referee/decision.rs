@@ -22,6 +22,8 @@ pub enum PlacementReason {
     NoProgress,
     /// For a set play that is not a kick-off.
     SetPlay,
+    /// Where it was at a foul.
+    Foul,
     /// The ball was out, by the team that touched it last, if that is known.
     ThrowIn { against: Option<Team> },
 }
@@ -36,8 +38,12 @@ pub enum RemovalReason {
     IllegalDefender,
     /// It held the ball too long or carried it too far.
     BallHolding,
-    /// It pushed an opponent too long.
+    /// It pushed another robot too long.
     Pushing,
+    /// It was in contact with a goalkeeper in its area too long, or as the second attacker.
+    GoaliePushing,
+    /// It drove against an opponent, after a warning.
+    Charging,
     /// It left the field by itself.
     LeftTheField,
     /// It was nearest to a ball that was stuck among robots, and goes to the half-way line.
@@ -55,6 +61,8 @@ pub enum NoGoalReason {
     KickOffShot,
     /// A robot of the team carried it in.
     Held,
+    /// A robot of the team pushed the goalkeeper meanwhile.
+    GoaliePushed,
 }
 
 /// One decision, in the order in which the referee makes them. Places are in the pitch frame, in metres.
@@ -76,6 +84,8 @@ pub enum Decision {
     },
     /// One robot is put somewhere by hand, at rest: before it walks to its place, or since it stood wrongly for a kick-off.
     RobotPlaced { robot: RobotId, at: Pose },
+    /// The robot has committed a foul, and leaves for another one.
+    RobotWarned { robot: RobotId },
     /// The robot is off the field until it returns.
     RobotRemoved { robot: RobotId, reason: RemovalReason },
     /// The robot is back on the field, at rest.
@@ -96,6 +106,7 @@ impl fmt::Display for Decision {
                 let reason = match reason {
                     NoGoalReason::KickOffShot => "shot at the kick-off",
                     NoGoalReason::Held => "the ball was held",
+                    NoGoalReason::GoaliePushed => "the goalkeeper was pushed",
                 };
                 write!(f, "No goal for {by}: {reason}")
             }
@@ -109,6 +120,9 @@ impl fmt::Display for Decision {
             Decision::BallPlaced { at, reason: PlacementReason::SetPlay } => {
                 write!(f, "Set play: ball to {}", Spot(*at))
             }
+            Decision::BallPlaced { reason: PlacementReason::Foul, .. } => {
+                f.write_str("Foul: ball back to where it was")
+            }
             Decision::BallPlaced { at, reason: PlacementReason::ThrowIn { against: Some(team) } } => {
                 write!(f, "Out by {team}: ball to {}", SideName(*at))
             }
@@ -120,12 +134,15 @@ impl fmt::Display for Decision {
             }
             Decision::RobotsPlaced { kick_off: None } => f.write_str("Dropped ball: robots to their places"),
             Decision::RobotPlaced { robot, .. } => write!(f, "{} is put on its place", Shirt(*robot)),
+            Decision::RobotWarned { robot } => write!(f, "{} is warned: charging", Shirt(*robot)),
             Decision::RobotRemoved { robot, reason } => {
                 let reason = match reason {
                     RemovalReason::SecondDefender => "second defender",
                     RemovalReason::IllegalDefender => "illegal defender",
                     RemovalReason::BallHolding => "ball holding",
                     RemovalReason::Pushing => "pushing",
+                    RemovalReason::GoaliePushing => "goalkeeper pushing",
+                    RemovalReason::Charging => "charging",
                     RemovalReason::LeftTheField => "it left the field",
                     RemovalReason::LocalStuck => "the ball is stuck",
                     RemovalReason::RefereeBox => "the referee box took it off",
@@ -229,6 +246,17 @@ mod tests {
             (off(RemovalReason::IllegalDefender), "Away 2 must leave: illegal defender"),
             (off(RemovalReason::BallHolding), "Away 2 must leave: ball holding"),
             (off(RemovalReason::Pushing), "Away 2 must leave: pushing"),
+            (off(RemovalReason::GoaliePushing), "Away 2 must leave: goalkeeper pushing"),
+            (off(RemovalReason::Charging), "Away 2 must leave: charging"),
+            (Decision::RobotWarned { robot }, "Away 2 is warned: charging"),
+            (
+                Decision::NoGoal { by: Team::Home, reason: NoGoalReason::GoaliePushed },
+                "No goal for home: the goalkeeper was pushed",
+            ),
+            (
+                Decision::BallPlaced { at: Vec2::X, reason: PlacementReason::Foul },
+                "Foul: ball back to where it was",
+            ),
             (off(RemovalReason::LeftTheField), "Away 2 must leave: it left the field"),
             (off(RemovalReason::LocalStuck), "Away 2 must leave: the ball is stuck"),
             (off(RemovalReason::RefereeBox), "Away 2 must leave: the referee box took it off"),

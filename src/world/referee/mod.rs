@@ -21,7 +21,8 @@ pub use orders::orders_of;
 pub use phase::Phase;
 pub use restraints::Restraints;
 pub use rulebook::{
-    BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, RuleBook, Stuck, ThrowIn,
+    BallHolding, Charging, DefenderRule, GoaliePushing, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace,
+    RuleBook, Stuck, ThrowIn,
 };
 pub use rules::{Laws, Observation, RULES, Rule, follow, referee};
 pub use state::{MatchState, Removal};

@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::data::{Bound, Fault, Validate, check_all, check_count};
 
 pub use four_legged::{
-    BallHolding, DefenderRule, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace, Stuck, ThrowIn,
+    BallHolding, Charging, DefenderRule, GoaliePushing, KickOffStyle, LocalGlobal, Out, Pushing, ReturnPlace,
+    Stuck, ThrowIn,
 };
 
 /// How long and how far things may go in a match. A field that a file leaves out has its default.
@@ -47,8 +48,10 @@ pub struct RuleBook {
     pub second_defender_seconds: f32,
     /// How long a robot may hold the ball.
     pub ball_holding: Option<BallHolding>,
-    /// How long a robot may push an opponent.
+    /// How long a robot may push another one.
     pub pushing: Option<Pushing>,
+    /// How long a robot may drive against an opponent that does not drive against it.
+    pub charging: Option<Charging>,
     /// Metres that the centre of a robot may be beyond the lines; none where walls keep robots in. ASSUMPTION: 0.3 in the
     /// four-legged league, whose rules of 2008 speak of the carpet, up to 0.4 beyond the lines, and of the whole robot.
     pub leaving: Option<f32>,
@@ -81,6 +84,7 @@ impl Default for RuleBook {
             second_defender_seconds: 10.0,
             ball_holding: None,
             pushing: None,
+            charging: None,
             leaving: None,
             removal_seconds: 30.0,
             removal_outlasts_play: true,
@@ -110,6 +114,7 @@ impl RuleBook {
             || self.defenders != DefenderRule::Second
             || self.ball_holding.is_some()
             || self.pushing.is_some()
+            || self.charging.is_some()
             || !self.goal_from_kick_off
     }
 }
@@ -139,6 +144,9 @@ impl Validate for RuleBook {
                 ("pushing.seconds", pushing.seconds, seconds.positive()),
                 ("pushing.exempt_radius", pushing.exempt_radius, metres),
             ]);
+            let of_goalie =
+                |goalie: GoaliePushing| ("pushing.goalie.seconds", goalie.seconds, seconds.positive());
+            numbers.extend(pushing.goalie.map(of_goalie));
         }
         if let Out::ThrowIn(throw_in) = &self.out {
             numbers.extend([
@@ -153,6 +161,8 @@ impl Validate for RuleBook {
                 ("stuck.global_seconds", stuck.global_seconds, seconds.positive()),
             ]);
         }
+        let of_charging = |charging: Charging| ("charging.seconds", charging.seconds, seconds.positive());
+        numbers.extend(self.charging.map(of_charging));
         numbers.extend(self.leaving.map(|beyond| ("leaving", beyond, metres)));
         check_all(numbers)?;
         let check = |lead| check_count("mercy", "the lead", lead as usize, 1..=MOST_GOALS);

@@ -66,14 +66,25 @@ pub(super) struct Sight {
     robots: SmallVec<[(RobotId, Vec2); 8]>,
     touching: SmallVec<[RobotId; 4]>,
     held_by: Option<RobotId>,
+    contacts: SmallVec<[(RobotId, RobotId); 4]>,
     shoving: SmallVec<[(RobotId, RobotId); 4]>,
     still: SmallVec<[RobotId; 8]>,
 }
 
+/// Robots whose centres are farther apart do not touch, m.
+const REACH: f32 = 2.0;
 /// A robot that is told to move towards another faster than this pushes it, m/s.
 const SHOVE: f32 = 0.05;
 /// Slower robots stand still, m/s and rad/s.
 const STILL: (f32, f32) = (0.02, 0.1);
+
+impl SeenRobotItem<'_, '_> {
+    /// Whether it is told to move towards another robot.
+    fn shoves(&self, other: &SeenRobotItem) -> bool {
+        let way = (other.pose.position - self.pose.position).normalize_or_zero();
+        self.pose.forward().rotate(self.command.velocity()).dot(way) > SHOVE
+    }
+}
 
 impl Sight {
     /// Places alone: all that the rules of walled pitches ask for.
@@ -104,11 +115,12 @@ impl Sight {
             if player.twist.linear.length() < STILL.0 && player.twist.angular.abs() < STILL.1 {
                 sight.still.push(id);
             }
-            let wanted = player.pose.forward().rotate(player.command.velocity());
-            for other in players.iter().filter(|other| other.id.team != id.team) {
-                let way = (other.pose.position - player.pose.position).normalize_or_zero();
-                if wanted.dot(way) > SHOVE && contact(&player.handles.unit, &other.handles.unit) {
-                    sight.shoving.push((id, *other.id));
+            let is_near = |other: &SeenRobotItem| other.pose.position.distance(player.pose.position) < REACH;
+            for other in players.iter().filter(|other| *other.id > id && is_near(other)) {
+                if contact(&player.handles.unit, &other.handles.unit) {
+                    sight.contacts.push((id, *other.id));
+                    sight.shoving.extend(player.shoves(&other).then_some((id, *other.id)));
+                    sight.shoving.extend(other.shoves(&player).then_some((*other.id, id)));
                 }
             }
         }
@@ -121,6 +133,7 @@ impl Sight {
             robots: &self.robots,
             touching: &self.touching,
             held_by: self.held_by,
+            contacts: &self.contacts,
             shoving: &self.shoving,
             still: &self.still,
         }

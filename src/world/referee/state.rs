@@ -73,8 +73,16 @@ pub struct MatchState {
     pub(super) untouched: f64,
     /// Who holds the ball, or has just released it.
     pub(super) hold: Option<BallHold>,
-    /// The robots that push opponents, or have just done so, sorted by id.
+    /// The robots that push others, or have just done so, sorted by id.
     pub(super) pushes: Vec<(RobotId, Streak)>,
+    /// The robots that opponents have just pushed, sorted by id, and the seconds since.
+    pub(super) pushed: Vec<(RobotId, f64)>,
+    /// The attackers in contact with a goalkeeper, or that have just been, sorted by id.
+    pub(super) on_keeper: Vec<(RobotId, Streak)>,
+    /// The robots that charge opponents, or have just done so, sorted by id.
+    pub(super) charges: Vec<(RobotId, Streak)>,
+    /// The robots that were warned.
+    pub(super) warned: Vec<RobotId>,
 }
 
 /// Whether the team that kicked off may score.
@@ -110,6 +118,24 @@ impl Streak {
         }
         (paused < self.seconds.max(Streak::FLICKER)).then_some(Streak { paused, ..self })
     }
+}
+
+/// The streaks of robots, sorted by id, after some more seconds in which these robots went on or began.
+pub(super) fn streaks_after(
+    known: &[(RobotId, Streak)],
+    seconds: f64,
+    going_on: &[RobotId],
+) -> Vec<(RobotId, Streak)> {
+    let old = known
+        .iter()
+        .filter_map(|(robot, streak)| Some((*robot, streak.after(seconds, going_on.contains(robot))?)));
+    let mut streaks: Vec<(RobotId, Streak)> = old.collect();
+    for robot in going_on {
+        if let Err(place) = streaks.binary_search_by_key(robot, |(robot, _)| *robot) {
+            streaks.insert(place, (*robot, Streak::default()));
+        }
+    }
+    streaks
 }
 
 /// A robot that holds the ball.
@@ -164,6 +190,10 @@ impl MatchState {
             untouched: 0.0,
             hold: None,
             pushes: Vec::new(),
+            pushed: Vec::new(),
+            on_keeper: Vec::new(),
+            charges: Vec::new(),
+            warned: Vec::new(),
         }
     }
 
@@ -216,7 +246,10 @@ impl MatchState {
         };
         self.removed.insert(place, Removal { robot, reason, seconds_left });
         self.defenders.retain(|defender| defender.robot != robot);
-        self.pushes.retain(|(pushing, _)| *pushing != robot);
+        for streaks in [&mut self.pushes, &mut self.on_keeper, &mut self.charges] {
+            streaks.retain(|(other, _)| *other != robot);
+        }
+        self.pushed.retain(|(pushed, _)| *pushed != robot);
         self.hold = self.hold.filter(|hold| hold.robot != robot);
         true
     }

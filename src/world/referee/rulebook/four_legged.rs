@@ -44,19 +44,53 @@ impl Default for BallHolding {
     }
 }
 
-/// How long a robot may push an opponent.
+/// How long a robot may push another one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pushing {
     /// How long a robot may push, s.
     pub seconds: f32,
+    /// Whether pushing a team mate counts, too: the rules of 2008 speak of any other robot.
+    pub team_mates: bool,
+    /// What protects a goalkeeper in its own penalty area beyond that.
+    pub goalie: Option<GoaliePushing>,
     /// Metres from the ball within which the robot of a team that is nearest to it may push.
     pub exempt_radius: f32,
 }
 
 impl Default for Pushing {
     fn default() -> Pushing {
-        Pushing { seconds: 3.0, exempt_radius: 0.5 }
+        Pushing { seconds: 3.0, team_mates: true, goalie: Some(GoaliePushing::default()), exempt_radius: 0.5 }
+    }
+}
+
+/// How long an attacker may be in contact with a goalkeeper that is in its own penalty area, as the four-legged league had it:
+/// its text stands beside the rules of 2008 as a comment. A second attacker may not be at all.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GoaliePushing {
+    /// Seconds of contact, also through the ball.
+    pub seconds: f32,
+}
+
+impl Default for GoaliePushing {
+    fn default() -> GoaliePushing {
+        GoaliePushing { seconds: 1.0 }
+    }
+}
+
+/// How long a robot may drive against an opponent that does not drive against it, in the middle-size league. The first time it
+/// is warned, and then taken off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Charging {
+    /// ASSUMPTION: no text of the laws of 2001 is at hand. Charging an opponent was a foul, and cards followed.
+    pub seconds: f32,
+}
+
+impl Default for Charging {
+    fn default() -> Charging {
+        Charging { seconds: 2.0 }
     }
 }
 
@@ -145,9 +179,13 @@ mod tests {
 
     #[test]
     fn an_unknown_field_is_refused_in_every_part() {
-        for text in
-            ["(pushing: (second: 1.0))", "(out: ThrowIn(forth: 1.0))", "(stuck: LocalGlobal(local: 1.0))"]
-        {
+        for text in [
+            "(pushing: (second: 1.0))",
+            "(pushing: (goalie: (second: 1.0)))",
+            "(charging: (minutes: 1.0))",
+            "(out: ThrowIn(forth: 1.0))",
+            "(stuck: LocalGlobal(local: 1.0))",
+        ] {
             assert!(crate::world::referee::rules::read_book(text).is_err(), "{text}");
         }
     }
@@ -155,7 +193,11 @@ mod tests {
     #[test]
     fn every_bad_number_is_named_with_its_path() {
         type Spoil = fn(&mut RuleBook);
-        let bad: [(&str, Spoil); 10] = [
+        let bad: [(&str, Spoil); 12] = [
+            ("pushing.goalie.seconds", |book| {
+                book.pushing.as_mut().unwrap().goalie.as_mut().unwrap().seconds = 0.0
+            }),
+            ("charging.seconds", |book| book.charging = Some(Charging { seconds: 0.0 })),
             ("ball_holding.field_seconds", |book| book.ball_holding.as_mut().unwrap().field_seconds = 0.0),
             ("ball_holding.field_distance", |book| book.ball_holding.as_mut().unwrap().field_distance = -1.0),
             ("ball_holding.keeper_seconds", |book| {

@@ -6,8 +6,9 @@ use bevy::prelude::Vec2;
 
 use crate::geometry::Attacking;
 use crate::ids::Team;
-use crate::world::referee::decision::{Decision, NoGoalReason};
+use crate::world::referee::decision::{Decision, NoGoalReason, PlacementReason};
 use crate::world::referee::phase::Phase;
+use crate::world::referee::rules::goalie_pushing::is_keeper_pushed_by;
 use crate::world::referee::rules::observation::{Laws, Observation, ROUNDING, placed_ball};
 use crate::world::referee::state::{KickOffShot, MatchState};
 
@@ -18,7 +19,7 @@ use crate::world::referee::state::{KickOffShot, MatchState};
 ///
 /// By the rules of the four-legged league a goal that was shot at the kick-off does not count, and the other team kicks
 /// off as after a goal; the kick-off team's opponents may score at any time. Neither counts one while an attacker holds
-/// the ball, which is then a ball that is out.
+/// the ball, which is then a ball that is out, or pushes the goalkeeper: then the ball goes back to where it was.
 pub(super) fn goal(
     laws: &Laws,
     observation: &Observation,
@@ -45,6 +46,13 @@ pub(super) fn goal(
     let held = laws.book.ball_holding.is_some() && observation.held_by.is_some_and(|robot| robot.team == by);
     if held && !at_kick_off {
         decisions.push(Decision::NoGoal { by, reason: NoGoalReason::Held });
+        return;
+    }
+    if !at_kick_off && is_keeper_pushed_by(by, laws, observation, state) {
+        let half = laws.pitch.half_size();
+        decisions.push(Decision::NoGoal { by, reason: NoGoalReason::GoaliePushed });
+        let at = if before.is_finite() { before } else { ball }.clamp(-half, half);
+        decisions.push(Decision::BallPlaced { at, reason: PlacementReason::Foul });
         return;
     }
     state.kick_off = by.opponent();

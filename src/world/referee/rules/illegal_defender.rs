@@ -9,6 +9,9 @@ use crate::world::referee::state::{Defender, MatchState};
 
 /// Seconds within which a robot that opponents pushed in has to be out again. ASSUMPTION: the rules give none.
 const WAY_OUT: f32 = 5.0;
+/// Seconds after a push within which a robot that comes in was pushed in: bodies that press on each other part for moments.
+/// ASSUMPTION.
+const JUST_NOW: f64 = 0.5;
 
 /// Takes field players off that are in their own penalty area, at once. One that came in while an opponent pushed it has
 /// some time to leave, and is not at fault while it is still being pushed.
@@ -22,12 +25,13 @@ pub(super) fn illegal_defender(
     if laws.book.defenders != DefenderRule::KeeperOnly || state.phase != Phase::Playing {
         return;
     }
+    note_pushed(observation, state);
     let field_players = observation.on_field(state).filter(|(robot, _)| robot.number != RuleBook::KEEPER);
     let inside = field_players.filter(|(robot, at)| is_in_own_area(laws, state, *robot, *at));
     let inside: Vec<RobotId> = inside.map(|(robot, _)| robot).collect();
     let excused = std::mem::take(&mut state.defenders);
     for robot in inside {
-        let pushed = observation.shoving.iter().any(|(by, pushed)| *pushed == robot && by.team != robot.team);
+        let pushed = state.pushed.iter().any(|(pushed, _)| *pushed == robot);
         let known = excused.iter().find(|defender| defender.robot == robot);
         let inside = match known {
             _ if pushed => 0.0,
@@ -41,6 +45,21 @@ pub(super) fn illegal_defender(
             state.defenders.push(Defender { robot, inside });
         }
     }
+}
+
+/// Keeps who was pushed by an opponent a moment ago.
+fn note_pushed(observation: &Observation, state: &mut MatchState) {
+    let mut pushed: Vec<(RobotId, f64)> = (observation.shoving.iter())
+        .filter(|(by, whom)| by.team != whom.team)
+        .map(|(_, whom)| (*whom, 0.0))
+        .collect();
+    let before = std::mem::take(&mut state.pushed);
+    let ago = before.into_iter().map(|(robot, ago)| (robot, ago + state.played));
+    pushed.extend(ago.filter(|(_, ago)| *ago <= JUST_NOW));
+    pushed.sort_by(|(a, now), (b, then)| a.cmp(b).then(now.total_cmp(then)));
+    pushed.dedup_by_key(|(robot, _)| *robot);
+    pushed.retain(|(robot, _)| !state.is_removed(*robot));
+    state.pushed = pushed;
 }
 
 #[cfg(test)]
@@ -103,9 +122,9 @@ mod tests {
             table.shoving = vec![(AWAY_1, HOME_1)];
             table.run(8.0);
             table.shoving.clear();
-            table.run(4.9);
+            table.run(5.3);
             assert_eq!(removals(&table), []);
-            table.run(0.15);
+            table.run(0.3);
             assert_eq!(removals(&table), [HOME_1]);
         }
     }
@@ -127,10 +146,25 @@ mod tests {
         table.run(1.0);
         table.shoving.clear();
         table.put(HOME_1, Vec2::new(-1.5, 0.3));
-        table.run(0.1);
+        table.run(0.6);
         table.put(HOME_1, INSIDE);
         table.run(0.1);
         assert_eq!(removals(&table), [HOME_1]);
+    }
+
+    #[test]
+    fn whoever_comes_in_in_a_moment_without_contact_was_pushed_in_all_the_same() {
+        for (pause, removed) in [(0.3, vec![]), (0.7, vec![HOME_1])] {
+            let mut table = Table::four_legged_playing(60);
+            table.put(HOME_1, INSIDE + Vec2::X * 0.3);
+            table.shoving = vec![(AWAY_1, HOME_1)];
+            table.run(0.5);
+            table.shoving.clear();
+            table.run(pause);
+            table.put(HOME_1, INSIDE);
+            table.run(0.5);
+            assert_eq!(removals(&table), removed, "after {pause} s");
+        }
     }
 
     #[test]

@@ -5,10 +5,12 @@
 //! sample with what they exceed, so that matches go the same way at every step size, within one sample.
 
 mod by_hand;
+mod charging;
 mod defenders;
 mod flow;
 mod following;
 mod goal;
+mod goalie_pushing;
 mod holding;
 mod illegal_defender;
 mod leaving;
@@ -56,7 +58,7 @@ pub struct Rule {
 /// 2. `phases` tells how much of the sample was played, which all others count.
 /// 3. `places by hand` follows the order to stand still at once.
 /// 4. `touches` knows who touched the ball, and when the kick-off is over, before `goal` and `out` ask.
-/// 5. `goal` comes before `clock`: a ball that crossed the line before time was up counts, and the rest of the sample is
+/// 5. `goal` asks what `goalie pushing` will say in this sample. It comes before `clock`: a ball that crossed the line before time was up counts, and the rest of the sample is
 ///    not played.
 /// 6. `clock` may end the half, also right after a goal, and `mercy` the match.
 /// 7. `out` moves the ball before others ask where it is. It comes after `goal`, as a goal is no ball that is out.
@@ -78,7 +80,9 @@ pub const RULES: &[Rule] = &[
     Rule { name: "second defender", judge: defenders::second_defender },
     Rule { name: "illegal defender", judge: illegal_defender::illegal_defender },
     Rule { name: "ball holding", judge: holding::ball_holding },
+    Rule { name: "goalie pushing", judge: goalie_pushing::goalie_pushing },
     Rule { name: "pushing", judge: pushing::pushing },
+    Rule { name: "charging", judge: charging::charging },
     Rule { name: "leaving", judge: leaving::leaving },
     Rule { name: "stuck", judge: stuck::stuck },
     Rule { name: "no progress", judge: progress::no_progress },

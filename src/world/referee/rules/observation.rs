@@ -30,7 +30,9 @@ pub struct Observation<'a> {
     pub touching: &'a [RobotId],
     /// The robot that has the ball so firmly that nobody else gets at it, under its chin for instance.
     pub held_by: Option<RobotId>,
-    /// Who pushes which opponent, in any order: they touch, and the first one drives against the second one.
+    /// The robots that touch each other, in any order.
+    pub contacts: &'a [(RobotId, RobotId)],
+    /// Who pushes whom, in any order: they touch, and the first one drives against the second one.
     pub shoving: &'a [(RobotId, RobotId)],
     /// The robots that stand still, in any order.
     pub still: &'a [RobotId],
@@ -39,7 +41,12 @@ pub struct Observation<'a> {
 impl<'a> Observation<'a> {
     /// Ball and robots, of which none touches the ball or another one and none is known to stand still.
     pub fn of(ball: Vec2, robots: &'a [(RobotId, Vec2)]) -> Observation<'a> {
-        Observation { ball, robots, touching: &[], held_by: None, shoving: &[], still: &[] }
+        Observation { ball, robots, touching: &[], held_by: None, contacts: &[], shoving: &[], still: &[] }
+    }
+
+    /// Whether two robots touch each other.
+    pub(super) fn touch(&self, one: RobotId, other: RobotId) -> bool {
+        self.contacts.iter().any(|&(a, b)| (a, b) == (one, other) || (b, a) == (one, other))
     }
 
     /// Where a robot is that has not been taken off the field.

@@ -52,7 +52,11 @@ fn is_consistent(state: &MatchState, book: &RuleBook) {
     assert!(state.defenders.is_sorted_by(|a, b| a.robot < b.robot));
     assert!(state.defenders.iter().all(|d| !state.is_removed(d.robot)));
     assert!(state.played.is_finite() && state.waited.is_finite() && state.untouched.is_finite());
-    assert!(state.pushes.iter().all(|(robot, _)| !state.is_removed(*robot)));
+    for streaks in [&state.pushes, &state.on_keeper, &state.charges] {
+        assert!(streaks.iter().all(|(robot, _)| !state.is_removed(*robot)));
+        assert!(streaks.is_sorted_by(|(a, _), (b, _)| a < b));
+    }
+    assert!(state.pushed.iter().all(|(robot, ago)| !state.is_removed(*robot) && ago.is_finite()));
     assert!(state.hold.is_none_or(|hold| !state.is_removed(hold.robot)));
     assert!(state.pushes.is_sorted_by(|(a, _), (b, _)| a < b));
     let streaks =
@@ -117,7 +121,15 @@ proptest! {
             let shoving: Vec<_> = pushes.iter().filter_map(|(a, b)| Some((id(a)?, id(b)?))).collect();
             let held_by = held_by.as_ref().and_then(id);
             let observation =
-                Observation { ball: *ball, robots: &seen, touching: &touching, held_by, shoving: &shoving, still: &still };
+                Observation {
+                    ball: *ball,
+                    robots: &seen,
+                    touching: &touching,
+                    held_by,
+                    contacts: &shoving,
+                    shoving: &shoving,
+                    still: &still,
+                };
             let before = state.clone();
             let mut decisions = Vec::new();
             referee(&laws, &observation, *dt, &mut state, &mut decisions);

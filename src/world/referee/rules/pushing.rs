@@ -1,4 +1,4 @@
-//! Pushing, by the rules of the four-legged league: who drives against an opponent for too long is taken off.
+//! Pushing, by the rules of the four-legged league: who drives against another robot for too long is taken off.
 //!
 //! The robot of each team that is nearest to the ball may push within some distance of it, a goalkeeper in its own
 //! penalty area may, and a robot that stands still is never at fault. Pauses that are shorter than the push do not end
@@ -11,9 +11,9 @@ use crate::world::referee::decision::{Decision, RemovalReason};
 use crate::world::referee::phase::Phase;
 use crate::world::referee::rulebook::{Pushing, RuleBook};
 use crate::world::referee::rules::observation::{Laws, Observation, is_in_own_area, is_over, send_off};
-use crate::world::referee::state::{MatchState, Streak};
+use crate::world::referee::state::{MatchState, Streak, streaks_after};
 
-/// Takes off a robot that has pushed opponents for too long.
+/// Takes off a robot that has pushed others for too long.
 pub(super) fn pushing(
     laws: &Laws,
     observation: &Observation,
@@ -25,29 +25,22 @@ pub(super) fn pushing(
     if state.phase != Phase::Playing {
         return;
     }
+    let counts = |by: RobotId, whom: RobotId| rule.team_mates || by.team != whom.team;
     let seen = observation.on_field(state).filter(|(robot, at)| {
-        let pushes = observation.shoving.iter().any(|(by, whom)| by == robot && by.team != whom.team);
+        let pushes = observation.shoving.iter().any(|(by, whom)| by == robot && counts(*by, *whom));
         pushes && !may_push(rule, laws, observation, state, *robot, *at)
     });
     let pushing: Vec<RobotId> = seen.map(|(robot, _)| robot).collect();
-    let known = std::mem::take(&mut state.pushes);
-    let mut pushes: Vec<(RobotId, Streak)> = known
-        .into_iter()
-        .filter_map(|(robot, streak)| Some((robot, streak.after(state.played, pushing.contains(&robot))?)))
-        .collect();
-    for robot in pushing {
-        match pushes.binary_search_by_key(&robot, |(robot, _)| *robot) {
-            Err(place) => pushes.insert(place, (robot, Streak::default())),
-            Ok(place) if is_over(pushes[place].1.seconds, rule.seconds) => {
-                let (_, streak) = pushes.remove(place);
-                let beyond = (streak.seconds - f64::from(rule.seconds)).clamp(0.0, state.played);
-                let away = f64::from(laws.book.removal_seconds) - beyond;
-                send_off(state, decisions, robot, away, RemovalReason::Pushing);
-            }
-            Ok(_) => {}
-        }
+    state.pushes = streaks_after(&state.pushes, state.played, &pushing);
+    let too_long = |(robot, streak): &(RobotId, Streak)| {
+        pushing.contains(robot) && is_over(streak.seconds, rule.seconds)
+    };
+    let guilty: Vec<_> = state.pushes.iter().copied().filter(too_long).collect();
+    for (robot, streak) in guilty {
+        let beyond = (streak.seconds - f64::from(rule.seconds)).clamp(0.0, state.played);
+        let away = f64::from(laws.book.removal_seconds) - beyond;
+        send_off(state, decisions, robot, away, RemovalReason::Pushing);
     }
-    state.pushes = pushes;
 }
 
 fn may_push(
@@ -173,11 +166,18 @@ mod tests {
     }
 
     #[test]
-    fn teammates_and_a_kick_off_count_nothing() {
-        let mut table = pushing(60);
-        table.shoving = vec![(HOME_1, HOME_2)];
-        table.run(5.0);
-        assert_eq!(removals(&table), []);
+    fn pushing_a_team_mate_counts_too_unless_the_book_says_otherwise() {
+        for (team_mates, removed) in [(true, vec![HOME_1]), (false, vec![])] {
+            let mut table = pushing(60);
+            table.book.pushing.as_mut().expect("it has the rule").team_mates = team_mates;
+            table.shoving = vec![(HOME_1, HOME_2)];
+            table.run(5.0);
+            assert_eq!(removals(&table), removed);
+        }
+    }
+
+    #[test]
+    fn a_kick_off_starts_the_time_anew() {
         let mut table = pushing(60);
         table.run(2.5);
         table.restart_in_play();

@@ -24,6 +24,7 @@ pub struct Table {
     pub robots: Vec<(RobotId, Vec2)>,
     pub touching: Vec<RobotId>,
     pub held_by: Option<RobotId>,
+    pub contacts: Vec<(RobotId, RobotId)>,
     pub shoving: Vec<(RobotId, RobotId)>,
     pub still: Vec<RobotId>,
     pub ball_radius: f32,
@@ -70,6 +71,7 @@ impl Table {
             robots: line_up(),
             touching: Vec::new(),
             held_by: None,
+            contacts: Vec::new(),
             shoving: Vec::new(),
             still: Vec::new(),
             ball_radius: BALL_RADIUS,
@@ -102,6 +104,7 @@ impl Table {
             robots: &self.robots,
             touching: &self.touching,
             held_by: self.held_by,
+            contacts: &self.contacts,
             shoving: &self.shoving,
             still: &self.still,
         };
