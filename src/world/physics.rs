@@ -3,7 +3,6 @@
 //! Bodies are spawned as bevy_rapier components and registered once, when a match starts. During a match the stages work on
 //! Rapier's own body set, so a tick costs little more than Rapier itself.
 
-mod contacts;
 mod footprint;
 mod put;
 mod room;
@@ -22,7 +21,6 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
-pub use contacts::Contacts;
 use footprint::place_of;
 pub use footprint::{Footprint, trailer_shape, unit_shapes};
 pub use put::{Put, push};

@@ -10,8 +10,8 @@ use crate::comms::tcm::{MessageBudgets, Spent};
 use crate::data::in_one_line;
 use crate::game::net::{self, CarrierFigures, RemoteFigures, UdpCarrier};
 use crate::game::record::{
-    AGGLOMERATION, BallOverlap, BookingFigures, CROWD, ContactTotal, HoldFigures, KickFigures, LooseBalls,
-    Pursuit, Removals, RobotContacts,
+    AGGLOMERATION, BallOverlap, BookingFigures, CROWD, ContactTotal, GripFigures, HoldFigures, KickFigures,
+    LooseBalls, Pursuit, Removals, RobotContacts,
 };
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
@@ -41,6 +41,10 @@ pub(super) struct RunReport {
     loose_balls: LooseBalls,
     /// Kicks that were tried, struck and missed.
     kicks: [KickFigures; 2],
+    /// Balls that chins caught and lost.
+    grips: [GripFigures; 2],
+    /// How often robots fell.
+    falls: [u32; 2],
     /// Whom the referee took off, by reason.
     removals: Removals,
     /// How long robots kept their roles.
@@ -186,7 +190,9 @@ impl RunReport {
             booking_beliefs: record.bookings,
             contacts: ContactReport::of(&record.contacts),
             loose_balls: record.loose_balls,
-            kicks: record.kicks.clone(),
+            kicks: record.kicks,
+            grips: record.grips,
+            falls: record.falls,
             removals: record.removals.clone(),
             roles: record.roles.clone(),
             states: record.states.clone(),

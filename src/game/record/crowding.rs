@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::play_tick::PlayTick;
-use crate::ids::Team;
 
 /// The distances from the ball within which team mates are counted, m. None of them is taken from a strategy.
 pub const RADII: [f32; 4] = [0.5, 0.75, 1.0, 1.5];
@@ -18,11 +17,16 @@ pub struct Crowding([[f64; 2]; RADII.len()]);
 
 impl Crowding {
     pub(super) fn update(&mut self, tick: &PlayTick) {
-        for (radius, seconds) in RADII.into_iter().zip(&mut self.0) {
-            for team in Team::BOTH {
-                let near = |place: bevy::prelude::Vec2| place.distance_squared(tick.ball) < radius * radius;
-                if tick.of(team).filter(|player| near(player.position)).nth(1).is_some() {
-                    seconds[team.index()] += tick.dt;
+        let mut near = [[0; 2]; RADII.len()];
+        for player in &tick.players {
+            for (radius, near) in RADII.iter().zip(&mut near) {
+                near[player.id.team.index()] += u32::from(player.distance < *radius);
+            }
+        }
+        for (near, seconds) in near.iter().zip(&mut self.0) {
+            for team in [0, 1] {
+                if near[team] >= 2 {
+                    seconds[team] += tick.dt;
                 }
             }
         }

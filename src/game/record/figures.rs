@@ -6,7 +6,7 @@ use super::bookings::BookingFigures;
 use super::contacts::RobotContacts;
 use super::crowding::Crowding;
 use super::holds::HoldFigures;
-use super::kicks::KickFigures;
+use super::kicks::{GripFigures, KickFigures, count_falls};
 use super::loose_balls::LooseBalls;
 use super::overlap::BallOverlap;
 use super::play_tick::PlayTick;
@@ -35,6 +35,10 @@ pub struct Record {
     pub loose_balls: LooseBalls,
     /// The kicks of each team.
     pub kicks: [KickFigures; 2],
+    /// What each team's chins did.
+    pub grips: [GripFigures; 2],
+    /// How often robots of each team fell.
+    pub falls: [u32; 2],
     /// Whom the referee took off, and why.
     pub removals: Removals,
     /// How long robots kept their roles, by index.
@@ -48,8 +52,6 @@ pub struct Record {
     /// Metres driven by each robot, by robot in order.
     pub driven: Vec<(RobotId, f64)>,
     pub(super) last_near: Option<Team>,
-    /// The velocity of the ball one tick ago, m/s.
-    pub(super) ball_before: Vec2,
 }
 
 /// A robot nearer to the ball than this has it, m.
@@ -67,6 +69,8 @@ impl Record {
             contacts: RobotContacts::default(),
             loose_balls: LooseBalls::default(),
             kicks: Default::default(),
+            grips: Default::default(),
+            falls: [0; 2],
             removals: Removals::default(),
             roles: Default::default(),
             states: Default::default(),
@@ -74,7 +78,6 @@ impl Record {
             played: 0.0,
             driven: robots.into_iter().map(|robot| (robot, 0.0)).collect(),
             last_near: None,
-            ball_before: Vec2::ZERO,
         }
     }
 
@@ -88,12 +91,13 @@ impl Record {
         for team in Team::BOTH {
             let i = team.index();
             self.pursuit[i].update(team, tick);
-            self.kicks[i].update(team, tick, self.ball_before);
+            self.kicks[i].update(team, &tick.events);
+            self.grips[i].update(team, &tick.events);
+            self.falls[i] += count_falls(team, &tick.events);
             let playing = || tick.of(team).filter(|player| player.plays);
             self.roles[i].update(playing().map(|it| (it.id.number, it.role)), tick.now, tick.dt);
             self.states[i].update(playing().map(|it| (it.id.number, it.state)), tick.now, tick.dt);
         }
-        self.ball_before = tick.ball_velocity;
     }
 
     /// Play is interrupted.
@@ -108,9 +112,9 @@ impl Record {
     fn note_possession(&mut self, tick: &PlayTick) {
         let mut nearest: Option<(f32, RobotId)> = None;
         for player in &tick.players {
-            let distance = player.position.distance(tick.ball);
-            if distance < POSSESSION && nearest.is_none_or(|best| (distance, player.id) < best) {
-                nearest = Some((distance, player.id));
+            let known = (player.distance, player.id);
+            if player.distance < POSSESSION && nearest.is_none_or(|best| known < best) {
+                nearest = Some(known);
             }
         }
         self.last_near = nearest.map(|(_, id)| id.team).or(self.last_near);

@@ -23,7 +23,8 @@ pub struct HoldFigures<T> {
     #[serde(skip)]
     begun: u64,
     #[serde(skip)]
-    holders: SmallVec<[Holder<T>; 8]>,
+    /// By the number of the robot.
+    holders: SmallVec<[Option<Holder<T>>; 8]>,
 }
 
 /// A robot that is back within this time after it left oscillates, s.
@@ -31,10 +32,11 @@ pub const BACK_WITHIN: f64 = 3.0;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Holder<T> {
-    number: PlayerNumber,
     has: T,
     /// s of play
     since: f64,
+    /// When it was seen in play last, s of play. A robot that was away begins anew.
+    seen: f64,
     /// Whether it changed to what it has, so that the time since is that of a whole hold.
     changed: bool,
     /// What it had before, if play was not interrupted since.
@@ -58,26 +60,29 @@ impl<T> Default for HoldFigures<T> {
 impl<T: Copy + PartialEq> HoldFigures<T> {
     /// What the playing robots of the team have in this tick.
     pub(super) fn update(&mut self, robots: impl Iterator<Item = (PlayerNumber, T)>, now: f64, dt: f64) {
-        let mut seen: SmallVec<[PlayerNumber; 8]> = SmallVec::new();
         for (number, has) in robots {
-            seen.push(number);
+            let place = usize::from(number);
+            if self.holders.len() <= place {
+                self.holders.resize(place + 1, None);
+            }
             self.seconds += dt;
-            match self.holders.iter().position(|holder| holder.number == number) {
-                Some(place) if self.holders[place].has != has => self.change(place, has, now),
-                Some(_) => {}
+            match self.holders[place].filter(|holder| now - holder.seen < 1.5 * dt) {
+                Some(holder) if holder.has == has => {}
+                Some(holder) => self.holders[place] = Some(self.change(holder, has, now)),
                 None => {
                     self.begun += 1;
-                    let fresh = Holder { number, has, since: now, changed: false, before: None };
-                    self.holders.push(fresh);
+                    self.holders[place] =
+                        Some(Holder { has, since: now, seen: now, changed: false, before: None });
                 }
             }
+            if let Some(holder) = &mut self.holders[place] {
+                holder.seen = now;
+            }
         }
-        self.holders.retain(|holder| seen.contains(&holder.number));
         self.mean = if self.begun > 0 { self.seconds / self.begun as f64 } else { 0.0 };
     }
 
-    fn change(&mut self, place: usize, has: T, now: f64) {
-        let holder = self.holders[place];
+    fn change(&mut self, holder: Holder<T>, has: T, now: f64) -> Holder<T> {
         let held = now - holder.since;
         if holder.changed {
             self.shortest = if self.shortest > 0.0 { self.shortest.min(held) } else { held };
@@ -86,12 +91,12 @@ impl<T: Copy + PartialEq> HoldFigures<T> {
         self.oscillations += u64::from(is_back);
         self.changes += 1;
         self.begun += 1;
-        self.holders[place] = Holder { has, since: now, changed: true, before: Some(holder.has), ..holder };
+        Holder { has, since: now, changed: true, before: Some(holder.has), ..holder }
     }
 
     /// Play is interrupted: a change after it is no way back.
     pub(super) fn interrupt(&mut self) {
-        self.holders.iter_mut().for_each(|holder| holder.before = None);
+        self.holders.iter_mut().flatten().for_each(|holder| holder.before = None);
     }
 }
 

@@ -1,104 +1,98 @@
-//! Kicks: how many were tried, and what became of them, told from the motion of the ball.
+//! Kicks and grips: what robots tried to do with the ball, and what became of it.
 
-use bevy::prelude::*;
 use serde::Serialize;
-use smallvec::SmallVec;
 
-use super::play_tick::PlayTick;
-use crate::ids::{PlayerNumber, Team};
+use crate::ids::{RobotId, Team};
+use crate::world::BodyEvent;
 
 /// The kicks of a team. Those that are neither struck nor missed were broken off or go on.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct KickFigures {
     /// Kicks that began.
     pub tried: u32,
-    /// Kicks that sent the ball off: at the strike its velocity changed by more than [`STRUCK`].
+    /// Kicks that met the ball.
     pub struck: u32,
-    /// Kicks that did not.
+    /// Kicks that met nothing.
     pub missed: u32,
-    /// The tick at which each robot's last kick ends.
-    #[serde(skip)]
-    until: SmallVec<[(PlayerNumber, u64); 8]>,
 }
 
-/// A strike changes the velocity of the ball by more than this, m/s.
-pub const STRUCK: f32 = 0.2;
-/// No kick reaches a ball that is farther from the middle of the robot, m.
-const REACH: f32 = 0.5;
+/// What a team's chins did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct GripFigures {
+    /// Balls that they got hold of.
+    pub caught: u32,
+    /// Balls that others pushed or kicked out from under them.
+    pub slipped: u32,
+}
 
 impl KickFigures {
-    /// `ball_before` is the velocity of the ball one tick before.
-    pub(super) fn update(&mut self, team: Team, tick: &PlayTick, ball_before: Vec2) {
-        let is_sent_off = tick.ball_velocity.distance(ball_before) > STRUCK;
-        for player in tick.of(team) {
-            let Some(kicking) = player.kicking else { continue };
-            if self.note(player.id.number, kicking.until) {
-                self.tried += 1;
-            }
-            if kicking.strikes == tick.tick {
-                let is_struck = is_sent_off && player.position.distance(tick.ball) < REACH;
-                *(if is_struck { &mut self.struck } else { &mut self.missed }) += 1;
+    pub(super) fn update(&mut self, team: Team, events: &[(RobotId, BodyEvent)]) {
+        for event in of_team(team, events) {
+            match event {
+                BodyEvent::KickTried => self.tried += 1,
+                BodyEvent::KickStruck => self.struck += 1,
+                BodyEvent::KickMissed => self.missed += 1,
+                BodyEvent::Fell | BodyEvent::BallCaught | BodyEvent::BallSlipped => {}
             }
         }
     }
+}
 
-    /// Whether the kick that ends then is another one than the robot's last.
-    fn note(&mut self, number: PlayerNumber, until: u64) -> bool {
-        match self.until.iter_mut().find(|(known, _)| *known == number) {
-            Some(known) => std::mem::replace(&mut known.1, until) != until,
-            None => {
-                self.until.push((number, until));
-                true
+impl GripFigures {
+    pub(super) fn update(&mut self, team: Team, events: &[(RobotId, BodyEvent)]) {
+        for event in of_team(team, events) {
+            match event {
+                BodyEvent::BallCaught => self.caught += 1,
+                BodyEvent::BallSlipped => self.slipped += 1,
+                BodyEvent::Fell | BodyEvent::KickTried | BodyEvent::KickStruck | BodyEvent::KickMissed => {}
             }
         }
     }
+}
+
+/// How many robots of a team fell.
+pub(super) fn count_falls(team: Team, events: &[(RobotId, BodyEvent)]) -> u32 {
+    of_team(team, events).filter(|event| *event == BodyEvent::Fell).count() as u32
+}
+
+fn of_team(team: Team, events: &[(RobotId, BodyEvent)]) -> impl Iterator<Item = BodyEvent> {
+    events.iter().filter(move |(id, _)| id.team == team).map(|(_, event)| *event)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::play_tick::PlayerTick;
-    use super::super::play_tick::stage::*;
+    use super::super::play_tick::stage::{AWAY_1, HOME_1, HOME_2};
     use super::*;
-    use crate::robot::Kick;
-    use crate::robot::handling::Kicking;
+    use BodyEvent::*;
 
-    const KICK: Kick =
-        Kick { direction: 0.0, run_out: 1.0, run_out_spread: 0.0, spread: 0.0, time: 1.0, from_hold: false };
-
-    /// Kicks of one robot after these, each begun after the last one ended: the ball's velocity after the strike.
-    fn after(strikes: &[(f32, f32)]) -> KickFigures {
-        let (mut figures, mut tick_now) = (KickFigures::default(), 0);
-        for (x, speed) in strikes {
-            let kicking = Some(Kicking::begun(KICK, tick_now, 10));
-            for _ in 0..10 {
-                let struck = tick_now % 10 == 5;
-                let ball_velocity = if struck { Vec2::X * *speed } else { Vec2::ZERO };
-                let robot = PlayerTick { kicking, ..player(HOME_1, *x, 0.0) };
-                let tick = PlayTick { tick: tick_now, ball_velocity, ..tick(&[robot]) };
-                figures.update(Team::Home, &tick, Vec2::ZERO);
-                tick_now += 1;
-            }
-        }
-        figures
-    }
+    const EVENTS: [(RobotId, BodyEvent); 9] = [
+        (HOME_1, KickTried),
+        (HOME_2, KickTried),
+        (HOME_1, KickMissed),
+        (AWAY_1, KickTried),
+        (AWAY_1, KickStruck),
+        (AWAY_1, BallCaught),
+        (HOME_2, BallSlipped),
+        (HOME_2, Fell),
+        (HOME_1, Fell),
+    ];
 
     #[test]
-    fn a_kick_that_sends_the_ball_off_is_struck_and_any_other_missed() {
-        let figures = after(&[(-0.2, 0.8), (-0.2, 0.1), (-0.2, 1.0)]);
-        assert_eq!((figures.tried, figures.struck, figures.missed), (3, 2, 1));
-    }
-
-    #[test]
-    fn a_ball_that_another_sends_off_far_away_is_not_struck() {
-        assert_eq!(after(&[(-0.6, 0.8)]).missed, 1);
-    }
-
-    #[test]
-    fn a_kick_that_is_broken_off_was_tried() {
-        let mut figures = KickFigures::default();
-        let robot = PlayerTick { kicking: Some(Kicking::begun(KICK, 0, 10)), ..player(HOME_1, 0.2, 0.0) };
-        figures.update(Team::Home, &PlayTick { tick: 1, ..tick(&[robot]) }, Vec2::ZERO);
-        figures.update(Team::Home, &PlayTick { tick: 5, ..tick(&[player(HOME_1, 0.2, 0.0)]) }, Vec2::ZERO);
-        assert_eq!((figures.tried, figures.struck, figures.missed), (1, 0, 0));
+    fn what_happens_to_a_robot_counts_for_its_team() {
+        let kicks = Team::BOTH.map(|team| {
+            let mut kicks = KickFigures::default();
+            kicks.update(team, &EVENTS);
+            kicks
+        });
+        assert_eq!(kicks[0], KickFigures { tried: 2, struck: 0, missed: 1 });
+        assert_eq!(kicks[1], KickFigures { tried: 1, struck: 1, missed: 0 });
+        let grips = Team::BOTH.map(|team| {
+            let mut grips = GripFigures::default();
+            grips.update(team, &EVENTS);
+            grips
+        });
+        assert_eq!(grips[0], GripFigures { caught: 0, slipped: 1 });
+        assert_eq!(grips[1], GripFigures { caught: 1, slipped: 0 });
+        assert_eq!(Team::BOTH.map(|team| count_falls(team, &EVENTS)), [2, 0]);
     }
 }

@@ -27,7 +27,7 @@ pub use contacts::{APART, ContactTotal, RobotContacts};
 pub use crowding::{AGGLOMERATION, CROWD, Crowding, RADII};
 pub use figures::Record;
 pub use holds::{BACK_WITHIN, HoldFigures};
-pub use kicks::{KickFigures, STRUCK};
+pub use kicks::{GripFigures, KickFigures};
 pub use loose_balls::{LOOSE_AFTER, LooseBalls, WON_AFTER};
 pub use overlap::{BallOverlap, TOLERANCE};
 use play_tick::{PlayTick, PlayView};
@@ -66,7 +66,6 @@ fn measure(
         return record.interrupt();
     }
     let tick = PlayTick {
-        tick: clock.tick,
         now: record.played,
         dt: f64::from(clock.dt),
         ball_is_put: calls.0.iter().any(|call| matches!(call, Decision::BallPlaced { .. })),

@@ -4,23 +4,19 @@
 use bevy::ecs::query::QueryData;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
-use bevy_rapier2d::prelude::RapierRigidBodyHandle;
-use bevy_rapier2d::rapier::dynamics::RigidBodyHandle;
 use smallvec::SmallVec;
 
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
-use crate::robot::handling::{Handling, Kicking};
-use crate::robot::{DriveCommand, OffPitch, Orders, Robot, RobotBodies, RobotState};
+use crate::robot::handling::Handling;
+use crate::robot::{DriveCommand, OffPitch, Orders, Robot, RobotState};
 use crate::strategy::{Activity, Role};
 use crate::world::ball::Ball;
-use crate::world::physics::Contacts;
+use crate::world::{BodyEvent, BodyEvents, ContactImpulses};
 
 /// One tick of play. Points and velocities are in the pitch frame, in metres and m/s.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PlayTick {
-    /// Ticks of the match that are over.
-    pub tick: u64,
     /// Seconds of play before this tick.
     pub now: f64,
     /// Length of the tick, s.
@@ -29,12 +25,14 @@ pub(super) struct PlayTick {
     pub ball_velocity: Vec2,
     /// Whether the referee has put the ball somewhere.
     pub ball_is_put: bool,
-    /// Those on the pitch, in order.
+    /// Those on the pitch, in no particular order.
     pub players: SmallVec<[PlayerTick; 8]>,
-    /// The pairs of robots that touch with any of their bodies, each pair in order, once.
+    /// The pairs of robots that press each other with any of their bodies, in order, each pair in order and once.
     pub touching: SmallVec<[[RobotId; 2]; 8]>,
-    /// The robots that touch the ball with any of their bodies, in order.
+    /// The robots that touch the ball with any of their bodies.
     pub at_ball: SmallVec<[RobotId; 8]>,
+    /// What happened to the bodies of robots.
+    pub events: SmallVec<[(RobotId, BodyEvent); 4]>,
 }
 
 /// A robot on the pitch.
@@ -42,6 +40,8 @@ pub(super) struct PlayTick {
 pub(super) struct PlayerTick {
     pub id: RobotId,
     pub position: Vec2,
+    /// From the ball, m.
+    pub distance: f32,
     /// As it moves, m/s.
     pub velocity: Vec2,
     /// As its motors are told to move it, m/s.
@@ -50,7 +50,8 @@ pub(super) struct PlayerTick {
     pub plays: bool,
     /// Whether the ball is under its chin.
     pub holds: bool,
-    pub kicking: Option<Kicking>,
+    /// Whether a kick is under way.
+    pub kicks: bool,
     /// Index of its role.
     pub role: usize,
     /// Indices of the role that it acts in and of that role's state.
@@ -81,78 +82,53 @@ pub(super) struct SeenPlayer {
     orders: &'static Orders,
     role: &'static Role,
     activity: &'static Activity,
-    bodies: Option<&'static RobotBodies>,
 }
 
 impl SeenPlayerItem<'_, '_> {
-    fn tick(&self) -> PlayerTick {
+    fn tick(&self, ball: Vec2) -> PlayerTick {
         PlayerTick {
             id: *self.id,
             position: self.pose.position,
+            distance: self.pose.position.distance(ball),
             velocity: self.twist.linear,
             told: self.pose.forward().rotate(self.command.velocity()),
             plays: self.robot.health.drives() && self.orders.state == RobotState::Playing,
             holds: self.handling.holds(),
-            kicking: self.handling.kicking,
+            kicks: self.handling.kicking.is_some(),
             role: self.role.0,
             state: (self.activity.acting_as, self.activity.state),
         }
     }
 }
 
-type SeenBall = (&'static Pose, &'static Twist, Option<&'static RapierRigidBodyHandle>);
-
 /// All that the counters of play look at.
 #[derive(SystemParam)]
 pub(super) struct PlayView<'w, 's> {
-    ball: Single<'w, 's, SeenBall, With<Ball>>,
+    ball: Single<'w, 's, (&'static Pose, &'static Twist), With<Ball>>,
     players: Query<'w, 's, SeenPlayer, Without<OffPitch>>,
-    contacts: Contacts<'w, 's>,
+    contacts: Res<'w, ContactImpulses>,
+    events: Res<'w, BodyEvents>,
 }
-
-/// To whom a body belongs; the ball belongs to nobody.
-type Owner = (RigidBodyHandle, Option<RobotId>);
 
 impl PlayView<'_, '_> {
     /// What there is to see, but for the time.
     pub fn tick(&self) -> PlayTick {
-        let (ball, motion, body) = *self.ball;
-        let mut players: SmallVec<[PlayerTick; 8]> = SmallVec::new();
-        let mut owners: SmallVec<[Owner; 24]> = body.map(|body| (body.0, None)).into_iter().collect();
-        for player in &self.players {
-            players.push(player.tick());
-            let bodies = player.bodies.map(RobotBodies::all).unwrap_or_default();
-            owners.extend(bodies.into_iter().map(|body| (body.0, Some(*player.id))));
-        }
-        players.sort_unstable_by_key(|player| player.id);
-        let (touching, at_ball) = self.touches(&owners);
+        let (ball, motion) = *self.ball;
+        let players: SmallVec<[PlayerTick; 8]> =
+            self.players.iter().map(|player| player.tick(ball.position)).collect();
+        let plays = |robot: RobotId| players.iter().any(|player| player.id == robot);
+        let touching = self.contacts.robots.iter().map(|(a, b, _)| [*a, *b]);
+        let mut touching: SmallVec<_> = touching.filter(|[a, b]| plays(*a) && plays(*b)).collect();
+        touching.sort_unstable();
         PlayTick {
             ball: ball.position,
             ball_velocity: motion.linear,
-            players,
             touching,
-            at_ball,
+            at_ball: self.contacts.ball.iter().map(|(robot, _)| *robot).collect(),
+            events: self.events.0.as_slice().into(),
+            players,
             ..PlayTick::default()
         }
-    }
-
-    /// Which robots touch each other, and which touch the ball.
-    fn touches(&self, owners: &[Owner]) -> (SmallVec<[[RobotId; 2]; 8]>, SmallVec<[RobotId; 8]>) {
-        let owner = |body| owners.iter().find(|(other, _)| *other == body).map(|(_, owner)| *owner);
-        let (mut touching, mut at_ball) = (SmallVec::new(), SmallVec::new());
-        for [a, b] in self.contacts.pairs() {
-            match (owner(a), owner(b)) {
-                // A robot and its own trailer are no two.
-                (Some(Some(a)), Some(Some(b))) if a != b => touching.push([a.min(b), a.max(b)]),
-                (Some(Some(robot)), Some(None)) | (Some(None), Some(Some(robot))) => at_ball.push(robot),
-                _ => {}
-            }
-        }
-        touching.sort_unstable();
-        touching.dedup();
-        at_ball.sort_unstable();
-        at_ball.dedup();
-        (touching, at_ball)
     }
 }
 
@@ -170,11 +146,12 @@ pub(super) mod stage {
         PlayerTick {
             id,
             position: Vec2::new(x, y),
+            distance: Vec2::new(x, y).length(),
             velocity: Vec2::ZERO,
             told: Vec2::ZERO,
             plays: true,
             holds: false,
-            kicking: None,
+            kicks: false,
             role: 0,
             state: (0, 0),
         }
@@ -188,7 +165,7 @@ pub(super) mod stage {
     /// Shows a counter the same for so many tenths of a second, from `now` on.
     pub fn run(now: &mut f64, tenths: usize, tick: &PlayTick, mut update: impl FnMut(&PlayTick)) {
         for _ in 0..tenths {
-            update(&PlayTick { now: *now, tick: (*now * 10.0).round() as u64, ..tick.clone() });
+            update(&PlayTick { now: *now, ..tick.clone() });
             *now += tick.dt;
         }
     }

@@ -24,10 +24,10 @@ pub struct Pursuit {
     pub takeovers: u64,
     /// Takeovers back to the robot before within [`PING_PONG`].
     pub alternations: u64,
-    /// Until when each robot counts as driving at the ball, s of play.
+    /// Until when each robot counts as driving at the ball, by its number, s of play.
     #[serde(skip)]
-    until: SmallVec<[(PlayerNumber, f64); 8]>,
-    /// Those that drive at the ball now, in order.
+    until: SmallVec<[f64; 8]>,
+    /// Those that drive at the ball now.
     #[serde(skip)]
     driving: SmallVec<[PlayerNumber; 8]>,
     /// The last two that were the only one, the last one last, each with the time at which it became that.
@@ -57,26 +57,24 @@ const HOLD: f64 = 0.5;
 
 impl Pursuit {
     pub(super) fn update(&mut self, team: Team, tick: &PlayTick) {
-        for player in tick.of(team).filter(|player| drives_at_ball(player, tick)) {
-            self.note(player.id.number, tick.now + HOLD);
+        self.driving.clear();
+        let (mut goer, mut nearest_other) = (None, f32::INFINITY);
+        for player in tick.players.iter().filter(|player| player.id.team == team && player.plays) {
+            if self.goes(player, tick) {
+                self.driving.push(player.id.number);
+                goer = Some(player);
+            } else {
+                nearest_other = nearest_other.min(player.distance);
+            }
         }
-        let going = tick.of(team).filter(|player| self.goes(player, tick.now));
-        let driving = going.map(|player| player.id.number).collect();
-        self.driving = driving;
-        let mut going = tick.of(team).filter(|player| self.drives(player.id.number));
-        let (first, second) = (going.next(), going.next());
-        let only = first.filter(|_| second.is_none());
-        let distance = |player: &PlayerTick| player.position.distance(tick.ball);
-        let is_farther = only.is_some_and(|only| {
-            let others = tick.of(team).filter(|other| other.plays && other.id != only.id);
-            others.map(distance).any(|other| other + FARTHER < distance(only))
-        });
-        self.nobody.update(first.is_none(), tick.dt);
-        self.one.update(only.is_some(), tick.dt);
-        self.several.update(second.is_some(), tick.dt);
-        self.farther.update(is_farther, tick.dt);
-        if let Some(number) = only.map(|only| only.id.number) {
-            self.note_only(number, tick.now);
+        let going = self.driving.len();
+        let only = goer.filter(|_| going == 1);
+        self.nobody.update(going == 0, tick.dt);
+        self.one.update(going == 1, tick.dt);
+        self.several.update(going > 1, tick.dt);
+        self.farther.update(only.is_some_and(|only| nearest_other + FARTHER < only.distance), tick.dt);
+        if let Some(only) = only {
+            self.note_only(only.id.number, tick.now);
         }
     }
 
@@ -95,16 +93,16 @@ impl Pursuit {
         self.driving.contains(&number)
     }
 
-    fn goes(&self, player: &PlayerTick, now: f64) -> bool {
-        let until = self.until.iter().find(|(number, _)| *number == player.id.number);
-        player.plays && until.is_some_and(|(_, until)| now < *until)
-    }
-
-    fn note(&mut self, number: PlayerNumber, until: f64) {
-        match self.until.iter_mut().find(|(known, _)| *known == number) {
-            Some(known) => known.1 = until,
-            None => self.until.push((number, until)),
+    /// Whether a robot drives at the ball, or did a moment ago.
+    fn goes(&mut self, player: &PlayerTick, tick: &PlayTick) -> bool {
+        let place = usize::from(player.id.number);
+        if drives_at_ball(player, tick) {
+            if self.until.len() <= place {
+                self.until.resize(place + 1, f64::NEG_INFINITY);
+            }
+            self.until[place] = tick.now + HOLD;
         }
+        self.until.get(place).is_some_and(|until| tick.now < *until)
     }
 
     fn note_only(&mut self, number: PlayerNumber, now: f64) {
@@ -125,19 +123,19 @@ impl Pursuit {
 /// Whether a robot drives at the ball in this tick: it plays, and holds the ball, kicks it, is told to move to it or to where it will
 /// be, or is at it and is not told to move away.
 fn drives_at_ball(player: &PlayerTick, tick: &PlayTick) -> bool {
-    let to_ball = tick.ball - player.position;
-    let distance = to_ball.length();
-    if !player.plays || distance > REACH {
+    if !player.plays || player.distance > REACH {
         return false;
     }
-    if player.holds || player.kicking.is_some() && distance < AT_BALL {
+    if player.holds || player.kicks && player.distance < AT_BALL {
         return true;
     }
-    let Some(way) = (player.told.length() > MOVES).then(|| player.told.normalize_or_zero()) else {
+    let speed = player.told.length();
+    if speed < MOVES {
         return false;
-    };
-    let leads_to = |target: Vec2| way.dot(target.normalize_or_zero());
-    if distance < AT_BALL {
+    }
+    let to_ball = tick.ball - player.position;
+    let leads_to = |target: Vec2| player.told.dot(target) / (speed * target.length()).max(f32::MIN_POSITIVE);
+    if player.distance < AT_BALL {
         return leads_to(to_ball) > AWAY;
     }
     leads_to(to_ball) > AHEAD || leads_to(to_ball + tick.ball_velocity * LEAD) > AHEAD

@@ -10,6 +10,7 @@ use crate::robot::{DriveCommand, OffPitch, Trailer, WheelSpeeds};
 use crate::strategy::{Activity, Role, Strategies};
 use crate::testing::BALL;
 use crate::world::referee::RuleBook;
+use crate::world::{BodyEvents, ContactImpulses};
 
 fn record(seed: u64) -> Record {
     Record::new(
@@ -32,6 +33,8 @@ fn app() -> App {
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(BALL);
     app.init_resource::<Calls>();
+    app.init_resource::<ContactImpulses>();
+    app.init_resource::<BodyEvents>();
     app.world_mut().spawn((Ball, Pose::default(), Twist::default()));
     robot(&mut app, Home, 0, 3.0);
     robot(&mut app, Away, 0, -3.0);
