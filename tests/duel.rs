@@ -24,7 +24,7 @@ fn one_against_one(file: &str, strategy: &str, trials: u32) -> DuelReport {
 #[test]
 fn a_strategy_wins_half_of_the_balls_against_itself_as_either_side_and_either_team() {
     for (file, strategy) in [("friendly", "ball_chasers"), ("four_legged_2005", "chaos_plain")] {
-        let report = one_against_one(file, strategy, 140);
+        let report = one_against_one(file, strategy, 240);
         assert!(report.home.of >= 100, "{report}");
         for share in [report.first.brought_out, report.home] {
             assert!((0.35..=0.65).contains(&share.share), "{file}: {report}");
