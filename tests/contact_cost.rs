@@ -96,7 +96,7 @@ fn the_less_is_left_the_slower_an_entangled_robot_gets_away() {
 
 #[test]
 fn a_fallen_robot_neither_walks_nor_kicks_until_it_stands_again() {
-    let falls = Falls { rate: 50.0, down: (3.0, 3.5) };
+    let falls = Falls { rate: 5.0, down: (3.0, 3.5) };
     let mut game = nose_to_nose(ContactCost { falls: Some(falls), ..shipped() });
     let fell = (0..300).any(|_| drive(&mut game, AHEAD).contains(&Team::Home));
     assert!(fell && !footing(&mut game, Team::Home).stands());

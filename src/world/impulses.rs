@@ -63,6 +63,9 @@ impl ContactImpulses {
     }
 }
 
+/// Bodies that rest beside each other exchange less than this, N·s.
+const TOUCH: f32 = 1e-3;
+
 /// Whose a body is; nobody's is the ball.
 type Owned = (RigidBodyHandle, Option<RobotId>);
 
@@ -85,7 +88,7 @@ fn note_contacts(
     };
     for pair in simulation.narrow_phase.contact_pairs() {
         let impulse = pair.total_impulse_magnitude();
-        if impulse > 0.0
+        if impulse > TOUCH
             && let (Some(one), Some(other)) = (owner(pair.collider1), owner(pair.collider2))
         {
             contacts.add(one, other, impulse);
