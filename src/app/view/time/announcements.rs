@@ -20,11 +20,15 @@ fn weight(decision: &Decision) -> u8 {
         Decision::MatchFinished { .. } => 5,
         Decision::Goal { .. } => 4,
         Decision::HalfEnded { .. } | Decision::NoGoal { .. } => 3,
-        Decision::RobotRemoved { .. } | Decision::RobotReturned { .. } | Decision::Untouched { .. } => 2,
+        Decision::RobotWarned { .. }
+        | Decision::RobotRemoved { .. }
+        | Decision::RobotReturned { .. }
+        | Decision::Untouched { .. } => 2,
         Decision::BallPlaced { reason: PlacementReason::NoProgress, .. } => 2,
         Decision::RobotsPlaced { .. } => 1,
         Decision::BallPlaced {
-            reason: PlacementReason::ThrowIn { .. } | PlacementReason::SetPlay, ..
+            reason: PlacementReason::ThrowIn { .. } | PlacementReason::SetPlay | PlacementReason::Foul,
+            ..
         } => 1,
         Decision::BallPlaced { reason: PlacementReason::KickOff, .. }
         | Decision::PhaseChanged(_)
