@@ -149,7 +149,7 @@ fn a_robot_that_moved_in_set_stands_where_it_is_and_keeps_what_it_knows() {
     assert_eq!(refereed.orders(robot), (RobotState::Penalised, false));
     let after = believed(&mut refereed);
     assert!(before.0.distance(after.0) < 0.2 && before.1 == after.1, "{before:?}, {after:?}");
-    let moves = driven(&mut refereed, 120);
+    let moves = driven(&mut refereed, 240);
     assert!(moves[1] < 0.01 && moves.iter().any(|way| *way > 0.1), "others play: {moves:?}");
     let pushed = Penalised { penalty: Penalty::Pushing, ..moved };
     refereed.say(|says| says.penalties[0] = vec![pushed]);
