@@ -152,11 +152,11 @@ fn a_strategy_that_a_match_would_refuse_is_refused_when_it_is_read_again() {
         (reading.strategy.expect_err("it is refused").to_string(), reading.files)
     };
     let (told, _) = fault(text.replace("[\"cye\", \"aibo_ers7\"]", "[\"cye\"]"));
-    assert!(told.contains("mine.ron:9:18: robot_kinds: cannot be played by a `aibo_ers7`"), "{told}");
+    assert!(told.contains("mine.ron:12:18: robot_kinds: cannot be played by a `aibo_ers7`"), "{told}");
     let fewer = text.replace(", \"forward\"],\n    kick_off", "],\n    kick_off");
     let last = [", (-0.6, 0.0)]", ", (-0.95, 0.3)]", ", (2.5, 1.2)]"];
     let (told, _) = fault(last.iter().fold(fewer, |text, last| text.replace(last, "]")));
-    assert!(told.contains("mine.ron:11:14: players: it has 3 players, and 4 are on the pitch"), "{told}");
+    assert!(told.contains("mine.ron:14:14: players: it has 3 players, and 4 are on the pitch"), "{told}");
     // A base that is not there yet is watched for.
     let (told, files) = fault(based_on("coming"));
     assert!(told.contains("there is no strategy `coming`"), "{told}");

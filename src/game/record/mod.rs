@@ -74,14 +74,14 @@ fn measure(
     record.update(&tick);
 }
 
-type Bidding<'a> = (&'a RobotId, &'a Robot, &'a WorldModel, &'a Booking, &'a Orders);
+type BookingView<'a> = (&'a RobotId, &'a Robot, &'a WorldModel, &'a Booking, &'a Orders);
 
 /// Robots that are penalised or off take no part.
 fn watch_bookings(
     clock: Res<Clock>,
     strategies: Res<Strategies>,
     mut record: ResMut<Record>,
-    robots: Query<Bidding>,
+    robots: Query<BookingView>,
 ) {
     for team in Team::BOTH {
         let Some(spec) = &strategies.of(team).teamwork.ball_booking else { continue };

@@ -1,14 +1,22 @@
 //! From an assemblage to one vector, by way of the assemblages in it.
 
-use bevy::prelude::Vec2;
+use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::Contributions;
 use super::evaluate::evaluate;
 use crate::mind::perception::{Memory, Perception};
 use crate::mind::schemas::combine::{blend, weighted_sum, winner_take_all};
 use crate::rng::Dice;
 use crate::strategy::{Assemblage, Combination, Influence, Strategy, Term};
+
+/// What each schema of the running assemblage wants, in the team frame, and the intent that followed.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct Contributions {
+    /// In the order of the assemblage's terms, unweighted; of an assemblage in it, times how desirable that is.
+    pub vectors: Vec<Vec2>,
+    /// The combination of all, in the team frame.
+    pub sum: Vec2,
+}
 
 /// What a robot's assemblages are worked out from.
 pub(super) struct Combining<'a> {

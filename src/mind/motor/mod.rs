@@ -15,6 +15,7 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
 use combining::Combining;
+pub use combining::Contributions;
 use ready::walk_to_place;
 
 use crate::clock::Clock;
@@ -33,15 +34,6 @@ pub(super) fn plugin(app: &mut App) {
     app.match_component::<Contributions>().starts(|_: &RobotStart, _| Contributions::default());
     app.match_component::<MotorDice>().starts(|start: &RobotStart, _| MotorDice::new(start.seed, start.id));
     app.add_systems(Tick, (run_assemblages, head::aim_heads).in_set(TickSystems::Motor));
-}
-
-/// What each schema of the running assemblage wants, in the team frame, and the intent that followed.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
-pub struct Contributions {
-    /// In the order of the assemblage's terms, unweighted; of an assemblage in it, times how desirable that is.
-    pub vectors: Vec<Vec2>,
-    /// The combination of all, in the team frame.
-    pub sum: Vec2,
 }
 
 /// The dice of a robot's noise schemas.

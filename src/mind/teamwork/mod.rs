@@ -23,9 +23,8 @@ pub use booking::Booking;
 pub use claims::{Claim, Claims};
 pub use global_map::{BallEstimate, GlobalMap, Reported, fuse};
 pub use goalie::GoalieWhereabouts;
-pub use sight::Carrier;
 pub use swap::{SwapAsked, Swapping};
-pub use team_model::{BookingStatus, LastSent, TeamModel, kick_off_roles};
+pub use team_model::{BookingStatus, Carrier, LastSent, TeamModel, kick_off_roles};
 
 use crate::ids::RobotId;
 use crate::robot::{Restart, RobotStart, StrategyChanged, SwitchedOn};

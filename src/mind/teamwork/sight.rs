@@ -5,56 +5,16 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 
 use super::goalie::GoalieWhereabouts;
-use super::team_model::TeamModel;
+use super::team_model::{Carrier, TeamModel};
 use crate::clock::Clock;
 use crate::geometry::Zone;
-use crate::ids::{PlayerNumber, RobotId, Team};
+use crate::ids::{RobotId, Team};
 use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
 use crate::protocol::role_swap::RoleIndex;
 use crate::robot::Robot;
 use crate::strategy::teamwork::{TeamWatch, Teamwork};
 use crate::strategy::{Part, Role, Strategies, Strategy};
-
-/// The team mate that has the ball, as a robot believes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Carrier {
-    /// It is known by its number and its role: it has claimed the ball, or stands at it where it says that it is.
-    Known(PlayerNumber, RoleIndex),
-    /// It is seen at the ball, and not known by name.
-    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
-    Seen { at: Vec2, is_goalie: bool },
-}
-
-impl Carrier {
-    /// Its number, if it is known.
-    pub fn number(self) -> Option<PlayerNumber> {
-        match self {
-            Carrier::Known(number, _) => Some(number),
-            Carrier::Seen { .. } => None,
-        }
-    }
-
-    /// Whether it has one of these roles; any, if none is named. One that is only seen is told by where it is.
-    pub fn has_one_of(self, roles: impl IntoIterator<Item = RoleIndex>, teamwork: &Teamwork) -> bool {
-        let mut roles = roles.into_iter().peekable();
-        roles.peek().is_none()
-            || match self {
-                Carrier::Known(_, own) => roles.any(|role| role == own),
-                Carrier::Seen { is_goalie, .. } => {
-                    roles.any(|role| (teamwork.goalie == Some(role)) == is_goalie)
-                }
-            }
-    }
-
-    /// Whether it ranks above a role. One that is only seen does, since it may.
-    pub fn outranks(self, role: usize, teamwork: &Teamwork) -> bool {
-        match self {
-            Carrier::Known(_, own) => teamwork.outranks(usize::from(own), role),
-            Carrier::Seen { .. } => true,
-        }
-    }
-}
 
 /// The team mate that a robot sees at the ball: within reach of it, and nearer to it than the robot itself and all others. While
 /// the robot knows of no ball, which is often hidden by the one that has it, it is the one that had it.

@@ -3,9 +3,9 @@
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
-use super::sight::{Carrier, carrier_in_sight};
+use super::sight::carrier_in_sight;
 use super::swap::Swapping;
-use super::team_model::TeamModel;
+use super::team_model::{Carrier, TeamModel};
 use crate::clock::Clock;
 use crate::comms::messages::{BallReport, GoalieNews, HaveBall, Position, TeamMessage, Values};
 use crate::comms::tcm::TcmClient;

@@ -6,7 +6,6 @@ use smallvec::SmallVec;
 use super::claims::Claims;
 use super::global_map::GlobalMap;
 use super::goalie::{BorderWatch, GoalieWhereabouts};
-use super::sight::Carrier;
 use crate::clock::Clock;
 use crate::comms::messages::Values;
 use crate::ids::PlayerNumber;
@@ -15,6 +14,7 @@ use crate::protocol::policy::Valued;
 use crate::protocol::role_swap::{Assignment, RoleIndex};
 use crate::robot::{Restart, SwitchedOn};
 use crate::strategy::Strategy;
+use crate::strategy::teamwork::Teamwork;
 
 /// What a robot believes of its team; written by the Teamwork stage.
 #[derive(Component, Clone, Debug, PartialEq)]
@@ -43,6 +43,46 @@ pub struct TeamModel {
     pub last_sent: LastSent,
     /// A position message is due at once, for it carries a new configuration.
     pub announce: bool,
+}
+
+/// The team mate that has the ball, as a robot believes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Carrier {
+    /// It is known by its number and its role: it has claimed the ball, or stands at it where it says that it is.
+    Known(PlayerNumber, RoleIndex),
+    /// It is seen at the ball, and not known by name.
+    #[expect(missing_docs, reason = "the sentence of the variant says what its fields are")]
+    Seen { at: Vec2, is_goalie: bool },
+}
+
+impl Carrier {
+    /// Its number, if it is known.
+    pub fn number(self) -> Option<PlayerNumber> {
+        match self {
+            Carrier::Known(number, _) => Some(number),
+            Carrier::Seen { .. } => None,
+        }
+    }
+
+    /// Whether it has one of these roles; any, if none is named. One that is only seen is told by where it is.
+    pub fn has_one_of(self, roles: impl IntoIterator<Item = RoleIndex>, teamwork: &Teamwork) -> bool {
+        let mut roles = roles.into_iter().peekable();
+        roles.peek().is_none()
+            || match self {
+                Carrier::Known(_, own) => roles.any(|role| role == own),
+                Carrier::Seen { is_goalie, .. } => {
+                    roles.any(|role| (teamwork.goalie == Some(role)) == is_goalie)
+                }
+            }
+    }
+
+    /// Whether it ranks above a role. One that is only seen does, since it may.
+    pub fn outranks(self, role: usize, teamwork: &Teamwork) -> bool {
+        match self {
+            Carrier::Known(_, own) => teamwork.outranks(usize::from(own), role),
+            Carrier::Seen { .. } => true,
+        }
+    }
 }
 
 /// The booking of the ball, as a robot believes.

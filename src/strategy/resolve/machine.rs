@@ -11,15 +11,15 @@ use crate::strategy::pieces::{CompositeState, Machine, State, Transition, Turn};
 #[derive(Default)]
 struct Rows<'f> {
     /// Those that hold no others.
-    plain: Vec<Placed<'f>>,
+    plain: Vec<NestedState<'f>>,
     /// Those that hold others.
-    composite: Vec<Placed<'f>>,
+    composite: Vec<NestedState<'f>>,
     /// Where in the rows the state of a name is.
-    places: BTreeMap<&'f str, Place>,
+    places: BTreeMap<&'f str, StateRow>,
 }
 
 /// A state and where it is.
-struct Placed<'f> {
+struct NestedState<'f> {
     name: &'f str,
     file: &'f StateFile,
     at: Field,
@@ -29,25 +29,25 @@ struct Placed<'f> {
 
 /// A place in one of the rows.
 #[derive(Clone, Copy)]
-enum Place {
+enum StateRow {
     Plain(usize),
     Composite(usize),
 }
 
 impl<'f> Rows<'f> {
     /// How many composite states are around the state at a place.
-    fn around(&self, place: Place) -> usize {
+    fn around(&self, place: StateRow) -> usize {
         match place {
-            Place::Plain(index) => self.plain[index].within.len(),
-            Place::Composite(index) => self.composite[index].within.len(),
+            StateRow::Plain(index) => self.plain[index].within.len(),
+            StateRow::Composite(index) => self.composite[index].within.len(),
         }
     }
 
     /// The state that a robot is in once it goes to a place: inside a composite state, its start.
-    fn entry(&self, place: Place) -> Option<usize> {
+    fn entry(&self, place: StateRow) -> Option<usize> {
         match place {
-            Place::Plain(index) => Some(index),
-            Place::Composite(index) => {
+            StateRow::Plain(index) => Some(index),
+            StateRow::Composite(index) => {
                 let start = self.composite[index].file.start.as_deref()?;
                 self.entry(*self.places.get(start)?)
             }
@@ -81,10 +81,10 @@ impl Resolver<'_> {
         rows: &mut Rows<'f>,
     ) -> Resolved<()> {
         for (name, file) in states {
-            let state = Placed { name, file, at: at.key(name), within: within.into() };
+            let state = NestedState { name, file, at: at.key(name), within: within.into() };
             let place = match file.states {
-                None => Place::Plain(rows.plain.len()),
-                Some(_) => Place::Composite(rows.composite.len()),
+                None => StateRow::Plain(rows.plain.len()),
+                Some(_) => StateRow::Composite(rows.composite.len()),
             };
             if rows.places.insert(name, place).is_some() {
                 return self.fault(&state.at, "another state of this machine has the same name");
@@ -138,7 +138,7 @@ impl Resolver<'_> {
         self.index(states, "state", start, at).map(drop)
     }
 
-    fn transitions(&mut self, state: &Placed, rows: &Rows) -> Resolved<Vec<Transition>> {
+    fn transitions(&mut self, state: &NestedState, rows: &Rows) -> Resolved<Vec<Transition>> {
         let on = state.file.on.iter().enumerate();
         on.map(|(i, file)| self.transition(file, rows, &state.at.key("on").index(i))).collect()
     }
@@ -152,7 +152,7 @@ impl Resolver<'_> {
         Ok(Transition { when, go, around: rows.around(place), label: file.when.to_string() })
     }
 
-    fn state(&mut self, placed: &Placed, rows: &Rows) -> Resolved<State> {
+    fn state(&mut self, placed: &NestedState, rows: &Rows) -> Resolved<State> {
         let (file, at) = (placed.file, &placed.at);
         let assemblage = match &file.run {
             Some(run) => Some(self.index(&self.file.assemblages, "assemblage", run, &at.key("run"))?),

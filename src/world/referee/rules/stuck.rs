@@ -177,16 +177,15 @@ mod tests {
     }
 
     #[test]
-    fn while_a_robot_stands_on_the_centre_the_ball_waits_beside_the_keeper() {
+    fn where_a_robot_stands_on_the_centre_the_keepers_ball_comes_down_beside_it() {
         let mut table = scrum(60);
         table.ball = Vec2::new(-1.0, -0.5);
         table.put(HOME_0, table.ball);
         table.put(HOME_1, Vec2::ZERO);
-        table.run(35.0);
-        assert_eq!(table.ball.x, -1.0);
-        table.put(HOME_1, Vec2::new(0.0, 1.0));
-        table.run(0.1);
-        assert_eq!(table.ball, Vec2::ZERO);
+        table.run(29.9);
+        assert_eq!(table.ball, Vec2::new(-1.0, -0.5));
+        table.run(0.2);
+        assert_eq!(table.ball.length(), table.book.spot_clearance);
     }
 
     #[test]
