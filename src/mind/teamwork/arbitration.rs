@@ -42,7 +42,7 @@ pub(super) fn arbitrate(
     for mut robot in &mut robots {
         let strategy = strategies.of(robot.id.team);
         let Some(rules) = &strategy.teamwork.action_arbitration else { continue };
-        if !robot.robot.decides(&clock) {
+        if !robot.robot.decides(&clock) || !strategy.teamwork.has(Mechanism::ActionArbitration) {
             continue;
         }
         let standing = robot.standing(strategy, &pitch, ball.radius);
