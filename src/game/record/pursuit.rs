@@ -42,10 +42,10 @@ pub const FARTHER: f32 = 0.3;
 
 /// Slower motion goes nowhere, m/s.
 const MOVES: f32 = 0.05;
-/// Motion towards a ball that is farther away is about something else, m.
-const REACH: f32 = 2.0;
-/// The cosine of the angle up to which motion goes to the ball: 30°.
-const AHEAD: f32 = 0.866;
+/// Motion that takes longer to the ball is about something else, s.
+const SOON: f32 = 5.0;
+/// The cosine of the angle up to which motion goes to the ball: 20°.
+const AHEAD: f32 = 0.94;
 /// A moving ball may be met where it will be after this time, s.
 const LEAD: f32 = 0.5;
 /// This near a robot is at the ball, m: it may go round it, but not away from it.
@@ -120,10 +120,10 @@ impl Pursuit {
     }
 }
 
-/// Whether a robot drives at the ball in this tick: it plays, and holds the ball, kicks it, is told to move to it or to where it will
-/// be, or is at it and is not told to move away.
+/// Whether a robot drives at the ball in this tick: it plays, and holds the ball, kicks it, is told to move so that it is soon there or
+/// where it will be, or is at it and is not told to move away.
 fn drives_at_ball(player: &PlayerTick, tick: &PlayTick) -> bool {
-    if !player.plays || player.distance > REACH {
+    if !player.plays {
         return false;
     }
     if player.holds || player.kicks && player.distance < AT_BALL {
@@ -134,11 +134,12 @@ fn drives_at_ball(player: &PlayerTick, tick: &PlayTick) -> bool {
         return false;
     }
     let to_ball = tick.ball - player.position;
-    let leads_to = |target: Vec2| player.told.dot(target) / (speed * target.length()).max(f32::MIN_POSITIVE);
+    let direction = |target: Vec2| player.told.dot(target) / (speed * target.length()).max(f32::MIN_POSITIVE);
     if player.distance < AT_BALL {
-        return leads_to(to_ball) > AWAY;
+        return direction(to_ball) > AWAY;
     }
-    leads_to(to_ball) > AHEAD || leads_to(to_ball + tick.ball_velocity * LEAD) > AHEAD
+    let leads_to = |target: Vec2| direction(target) > AHEAD && target.length() < speed * SOON;
+    leads_to(to_ball) || leads_to(to_ball + tick.ball_velocity * LEAD)
 }
 
 #[cfg(test)]
@@ -160,7 +161,8 @@ mod tests {
         assert!(drives(told(HOME_1, (-1.0, 0.0), (0.3, 0.1))));
         assert!(!drives(told(HOME_1, (-1.0, 0.0), (0.3, 0.3))), "past it");
         assert!(!drives(told(HOME_1, (-1.0, 0.0), (0.04, 0.0))), "it stands");
-        assert!(!drives(told(HOME_1, (-2.1, 0.0), (0.3, 0.0))), "from afar");
+        assert!(!drives(told(HOME_1, (-1.6, 0.0), (0.3, 0.0))), "it is there too late");
+        assert!(drives(told(HOME_1, (-1.6, 0.0), (0.4, 0.0))));
         assert!(!drives(PlayerTick { plays: false, ..told(HOME_1, (-1.0, 0.0), (0.3, 0.0)) }));
     }
 
