@@ -35,6 +35,7 @@
 //! | [`state`] | what belongs to a match: how it starts, changes, is copied and put back |
 //! | [`data`] | RON files, with places for their mistakes |
 //! | [`pitch`] | the pitch |
+//! | [`vision`] | what a robot makes of pictures, and how its camera is calibrated |
 //! | [`protocol`] | role swap and ball booking, as values |
 //! | [`strategy`] | what a team does, read from a file |
 //! | [`robot`] | a robot's kind, and what passes between its body and its mind |
@@ -77,4 +78,5 @@ pub mod state;
 pub mod strategy;
 #[cfg(test)]
 mod testing;
+pub mod vision;
 pub mod world;

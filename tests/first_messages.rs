@@ -84,7 +84,7 @@ const RISE: u64 = 1230;
 /// How far what a robot says may lie from the truth: four deviations of its place, m, and of a sight, as a share of its length.
 fn errors(plan: &MatchPlan, id: RobotId) -> (f32, f32) {
     match &plan.team(id.team).sensing.eyes {
-        Eyes::Perfect => (0.05, 0.05),
+        Eyes::Perfect | Eyes::Images { .. } => (0.05, 0.05),
         Eyes::Real { camera, localisation, .. } => {
             (4.0 * localisation.position, 4.0 * (localisation.heading.to_radians() + camera.range_noise))
         }

@@ -45,6 +45,10 @@ impl Bound {
     pub const ACCELERATION: Bound = Bound::up_to(1000.0, " m/s²");
     /// An angle without direction.
     pub const ANGLE: Bound = Bound::up_to(360.0, "°");
+    /// From edge to edge of a picture.
+    pub const VIEW: Bound = Bound { least: 10.0, most: 150.0, unit: "°" };
+    /// By how much a camera looks down.
+    pub const NOD: Bound = Bound { least: -80.0, most: 80.0, unit: "°" };
     /// An angle with direction.
     pub const HEADING: Bound = Bound::ANGLE.signed();
     /// A speed of turning.

@@ -17,6 +17,8 @@ pub enum AssetKind {
     Robot,
     /// How well robots sense.
     Sensing,
+    /// A camera, how it is set and what colours look like to it.
+    Camera,
     /// How good the radio is.
     Radio,
     /// Where robots and computers are.
@@ -25,13 +27,14 @@ pub enum AssetKind {
 
 impl AssetKind {
     /// Every kind.
-    pub const ALL: [AssetKind; 8] = [
+    pub const ALL: [AssetKind; 9] = [
         AssetKind::Strategy,
         AssetKind::Scenario,
         AssetKind::Match,
         AssetKind::Pitch,
         AssetKind::Robot,
         AssetKind::Sensing,
+        AssetKind::Camera,
         AssetKind::Radio,
         AssetKind::Addresses,
     ];
@@ -45,6 +48,7 @@ impl AssetKind {
             AssetKind::Pitch => "pitches",
             AssetKind::Robot => "robots",
             AssetKind::Sensing => "sensing",
+            AssetKind::Camera => "cameras",
             AssetKind::Radio => "radios",
             AssetKind::Addresses => "addresses",
         }
@@ -70,6 +74,7 @@ impl fmt::Display for AssetKind {
             AssetKind::Pitch => "pitch",
             AssetKind::Robot => "robot",
             AssetKind::Sensing => "sensing preset",
+            AssetKind::Camera => "camera",
             AssetKind::Radio => "radio",
             AssetKind::Addresses => "table of addresses",
         })

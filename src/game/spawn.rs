@@ -73,6 +73,7 @@ fn robot_start(world: &World, plan: &MatchPlan, id: RobotId) -> RobotStart {
         role: team.strategy.players[usize::from(id.number)],
         kind: team.kind.clone(),
         sensing: team.sensing.clone(),
+        calibration: team.calibration.clone(),
         strategy: team.strategy.clone(),
         seed: Seed(plan.seed),
         clock: *world.resource::<Clock>(),

@@ -13,6 +13,7 @@ use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::teamwork::TeamworkFile;
 use crate::strategy::{Strategy, StrategyReading, TeamworkChange};
+use crate::vision::CameraCalibration;
 
 /// One side of a match: names of files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -68,6 +69,8 @@ pub struct TeamPlan {
     pub kind: Arc<RobotKind>,
     /// How well its robots sense.
     pub sensing: Arc<Sensing>,
+    /// How their cameras are calibrated, if they see by pictures.
+    pub calibration: Option<Arc<CameraCalibration>>,
 }
 
 impl TeamPlan {
@@ -82,12 +85,15 @@ impl TeamPlan {
         let at = Field::root().key(side).key("teamwork");
         let change = TeamworkChange { teamwork: names.teamwork.clone(), source: source.clone(), at };
         let reading = read_strategy(assets, names, &change, &kind, (pitch, ball));
+        let sensing: Sensing = checked(&assets.file(AssetKind::Sensing, &names.sensing))?;
+        let calibration = read_calibration(assets, (&names.sensing, &sensing))?;
         Ok(TeamPlan {
             strategy: Arc::new(reading.strategy?),
             strategy_files: reading.files,
             teamwork_change: change,
             kind: Arc::new(kind),
-            sensing: Arc::new(checked(&assets.file(AssetKind::Sensing, &names.sensing))?),
+            sensing: Arc::new(sensing),
+            calibration: calibration.map(Arc::new),
             names: names.clone(),
             roles: Vec::new(),
         })
@@ -102,6 +108,16 @@ impl TeamPlan {
         self.roles = roles;
         Ok(())
     }
+}
+
+/// The calibration that a sensing preset names, if it names one.
+fn read_calibration(
+    assets: &AssetFolder,
+    (name, sensing): (&str, &Sensing),
+) -> Result<Option<CameraCalibration>, DataError> {
+    let Some(camera) = sensing.eyes.calibration() else { return Ok(None) };
+    let source = Source::read(&assets.file(AssetKind::Sensing, name))?;
+    checked(&file_named(assets, &source, AssetKind::Camera, ("eyes.calibration", camera))?).map(Some)
 }
 
 /// Reads a team's strategy, which must be one for its robots and for the pitch.

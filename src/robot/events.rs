@@ -11,6 +11,7 @@ use crate::geometry::Pose;
 use crate::ids::RobotId;
 use crate::rng::Seed;
 use crate::strategy::Strategy;
+use crate::vision::CameraCalibration;
 
 /// A robot comes into a match.
 #[derive(Clone, Debug)]
@@ -23,6 +24,8 @@ pub struct RobotStart {
     pub kind: Arc<RobotKind>,
     /// How it sees.
     pub sensing: Arc<Sensing>,
+    /// How its camera is calibrated, if it sees by pictures.
+    pub calibration: Option<Arc<CameraCalibration>>,
     /// What its team plays.
     pub strategy: Arc<Strategy>,
     /// From which its dice come.

@@ -77,15 +77,12 @@ impl Odometry {
 
 /// Whether a point at this sighting would be well inside the view of a frame, so that not seeing it means something.
 pub fn should_be_seen(eyes: &Eyes, frame: &Frame, sighting: Sighting) -> bool {
-    match eyes {
-        Eyes::Perfect => true,
-        Eyes::Real { camera, .. } => {
-            !frame.chin_down
-                && sighting.range < 0.7 * camera.ball_range
-                && wrap_angle(sighting.bearing - frame.pan).abs()
-                    < 0.4 * camera.field_of_view.to_radians().min(2.0 * PI)
-        }
-    }
+    eyes.camera().is_none_or(|camera| {
+        !frame.chin_down
+            && sighting.range < 0.7 * camera.ball_range
+            && wrap_angle(sighting.bearing - frame.pan).abs()
+                < 0.4 * camera.field_of_view.to_radians().min(2.0 * PI)
+    })
 }
 
 /// Moves a dead-reckoned pose by what wheels or legs report: a way ahead and to the left in metres, and a turn in radians.

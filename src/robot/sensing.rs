@@ -25,8 +25,52 @@ pub struct Sensing {
 pub enum Eyes {
     /// The truth, at every tick.
     Perfect,
-    /// A camera and what goes with it.
+    /// A camera and what goes with it, as a model of its errors.
     Real { camera: Camera, localisation: Localisation, odometry: OdometryNoise },
+    /// Pictures, drawn of the truth and cut by colour as a file among the cameras has been calibrated. Landmarks in them are all
+    /// that tells the robot its place. What the robot believes of the errors of what it sees is given as the model of a camera.
+    Images {
+        calibration: String,
+        camera: Camera,
+        odometry: OdometryNoise,
+        #[serde(default)]
+        put_down: PlaceError,
+    },
+}
+
+impl Eyes {
+    /// The errors of what the camera shows, if it is not perfect.
+    pub fn camera(&self) -> Option<&Camera> {
+        match self {
+            Eyes::Perfect => None,
+            Eyes::Real { camera, .. } | Eyes::Images { camera, .. } => Some(camera),
+        }
+    }
+
+    /// The errors of dead reckoning, if it is not perfect.
+    pub fn odometry(&self) -> Option<&OdometryNoise> {
+        match self {
+            Eyes::Perfect => None,
+            Eyes::Real { odometry, .. } | Eyes::Images { odometry, .. } => Some(odometry),
+        }
+    }
+
+    /// How well a robot knows its place after people have put it down.
+    pub fn put_down(&self) -> PlaceError {
+        match self {
+            Eyes::Perfect => PlaceError::default(),
+            Eyes::Real { localisation, .. } => localisation.put_down,
+            Eyes::Images { put_down, .. } => *put_down,
+        }
+    }
+
+    /// The file among the cameras by which pictures are cut, if there are pictures.
+    pub fn calibration(&self) -> Option<&str> {
+        match self {
+            Eyes::Images { calibration, .. } => Some(calibration),
+            Eyes::Perfect | Eyes::Real { .. } => None,
+        }
+    }
 }
 
 /// A colour-blob camera that looks ahead.
@@ -175,12 +219,16 @@ const MOST_READINGS: usize = 1000;
 
 impl Validate for Eyes {
     fn validate(&self) -> Result<(), Fault> {
-        let Eyes::Real { camera, localisation, odometry } = self else { return Ok(()) };
+        if let Eyes::Real { localisation, .. } = self {
+            localisation.validate_as("localisation")?;
+        }
+        let (Some(camera), Some(odometry)) = (self.camera(), self.odometry()) else { return Ok(()) };
         camera.validate_as("camera")?;
-        localisation.validate_as("localisation")?;
         check_all([
             ("odometry.distance", odometry.distance, Bound::LENGTH),
             ("odometry.heading", odometry.heading, Bound::ANGLE),
+            ("put_down.position", self.put_down().position, Bound::LENGTH),
+            ("put_down.heading", self.put_down().heading, Bound::ANGLE),
         ])
     }
 }

@@ -12,15 +12,22 @@ use pathfinding::prelude::strongly_connected_components;
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("data", &[]),
     ("pitch", &["data"]),
+    ("vision", &["data"]),
     ("protocol", &["data"]),
     ("strategy", &["data", "pitch", "protocol"]),
-    ("robot", &["data", "strategy"]),
+    ("robot", &["data", "strategy", "vision"]),
     ("comms", &["data", "protocol", "robot"]),
     ("world", &["data", "pitch", "robot"]),
     ("mind", &["comms", "pitch", "protocol", "robot", "strategy"]),
-    ("game", &["comms", "data", "mind", "pitch", "protocol", "robot", "strategy", "world"]),
+    ("game", &["comms", "data", "mind", "pitch", "protocol", "robot", "strategy", "vision", "world"]),
     ("lab", &["comms", "data", "game", "mind", "pitch", "protocol", "robot", "strategy", "world"]),
-    ("app", &["comms", "data", "game", "lab", "mind", "pitch", "protocol", "robot", "strategy", "world"]),
+    (
+        "app",
+        &[
+            "comms", "data", "game", "lab", "mind", "pitch", "protocol", "robot", "strategy", "vision",
+            "world",
+        ],
+    ),
 ];
 
 /// The files that every room may import from, and that import from no room.

@@ -9,6 +9,7 @@ use crate::lab::scenario::{ScenarioFile, ScenarioPlan, ScenarioRef};
 use crate::pitch::Pitch;
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::StrategyFile;
+use crate::vision::CameraCalibration;
 
 /// The kind of a file: the one that has most of the fields in it. So a file with a fault is told from another, too.
 ///
@@ -45,6 +46,7 @@ fn fields_of(kind: AssetKind) -> &'static [&'static str] {
         AssetKind::Pitch => field_names::<Pitch>(),
         AssetKind::Robot => field_names::<RobotKind>(),
         AssetKind::Sensing => field_names::<Sensing>(),
+        AssetKind::Camera => field_names::<CameraCalibration>(),
         AssetKind::Radio => field_names::<Radio>(),
         AssetKind::Addresses => &[],
     }
@@ -69,6 +71,7 @@ pub(super) fn read(
         AssetKind::Pitch => drop(checked::<Pitch>(path)?),
         AssetKind::Robot => drop(checked::<RobotKind>(path)?),
         AssetKind::Sensing => drop(checked::<Sensing>(path)?),
+        AssetKind::Camera => drop(checked::<CameraCalibration>(path)?),
         AssetKind::Radio => drop(checked::<Radio>(path)?),
         AssetKind::Addresses => drop(read_addresses(path)?),
     }

@@ -129,19 +129,18 @@ fn chin(values: &mut RobotValues) -> Option<&mut Chin> {
     values.kind.chin.as_mut()
 }
 
-fn eyes(values: &mut RobotValues) -> Option<(&mut Camera, &mut Localisation, &mut OdometryNoise)> {
+fn camera(values: &mut RobotValues) -> Option<&mut Camera> {
     match &mut values.sensing.eyes {
-        Eyes::Real { camera, localisation, odometry } => Some((camera, localisation, odometry)),
         Eyes::Perfect => None,
+        Eyes::Real { camera, .. } | Eyes::Images { camera, .. } => Some(camera),
     }
 }
 
-fn camera(values: &mut RobotValues) -> Option<&mut Camera> {
-    eyes(values).map(|(camera, ..)| camera)
-}
-
 fn localisation(values: &mut RobotValues) -> Option<&mut Localisation> {
-    eyes(values).map(|(_, localisation, _)| localisation)
+    match &mut values.sensing.eyes {
+        Eyes::Real { localisation, .. } => Some(localisation),
+        Eyes::Perfect | Eyes::Images { .. } => None,
+    }
 }
 
 fn landmarks(values: &mut RobotValues) -> Option<&mut Landmarks> {
@@ -149,7 +148,10 @@ fn landmarks(values: &mut RobotValues) -> Option<&mut Landmarks> {
 }
 
 fn odometry(values: &mut RobotValues) -> Option<&mut OdometryNoise> {
-    eyes(values).map(|(.., odometry)| odometry)
+    match &mut values.sensing.eyes {
+        Eyes::Perfect => None,
+        Eyes::Real { odometry, .. } | Eyes::Images { odometry, .. } => Some(odometry),
+    }
 }
 
 fn memory(values: &mut RobotValues) -> Option<&mut MemorySpans> {

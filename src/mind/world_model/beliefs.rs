@@ -340,10 +340,11 @@ impl WorldModel {
     }
 }
 
-/// The share of a fix that is believed at once. Among landmarks beliefs follow at their own pace, however far off they are.
+/// The share of a fix that is believed at once. Among landmarks beliefs follow at their own pace, however far off they are. Who
+/// finds its place in pictures has weighed each landmark already.
 fn fix_gain(share: f32, offset: Vec2, turn: f32, eyes: &Eyes) -> f32 {
     match eyes {
-        Eyes::Perfect => 1.0,
+        Eyes::Perfect | Eyes::Images { .. } => 1.0,
         Eyes::Real { camera, localisation: Localisation { landmarks: Some(landmarks), .. }, .. } => {
             1.0 - ops::exp(-share / (camera.frame_hz * landmarks.settle))
         }
@@ -367,11 +368,8 @@ fn is_hidden(expected: Sighting, frame: &Frame) -> bool {
 const ROBOT_RADIUS: f32 = 0.25;
 
 fn deviation(eyes: &Eyes, sighting: Sighting) -> f32 {
-    match eyes {
-        Eyes::Perfect => 0.001,
-        Eyes::Real { camera, .. } => {
-            let across = camera.bearing_noise.to_radians() * sighting.range;
-            range_deviation(camera, sighting.range).max(across).max(0.01)
-        }
-    }
+    eyes.camera().map_or(0.001, |camera| {
+        let across = camera.bearing_noise.to_radians() * sighting.range;
+        range_deviation(camera, sighting.range).max(across).max(0.01)
+    })
 }

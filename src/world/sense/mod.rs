@@ -64,7 +64,7 @@ impl Eyesight {
     pub fn new(sensing: &Sensing, seed: Seed, robot: RobotId) -> Eyesight {
         let mut localisation_dice = Dice::new(seed, "localisation", Some(robot));
         let error = match &sensing.eyes {
-            Eyes::Perfect => PoseError::default(),
+            Eyes::Perfect | Eyes::Images { .. } => PoseError::default(),
             Eyes::Real { localisation, .. } => PoseError::drawn(localisation, &mut localisation_dice),
         };
         Eyesight {
@@ -84,11 +84,9 @@ impl Eyesight {
 
     /// What a robot takes its pose to be that people put down here.
     fn put_down(&mut self, truth: Pose, sensing: &Sensing) -> Pose {
-        match &sensing.eyes {
+        match sensing.eyes {
             Eyes::Perfect => truth,
-            Eyes::Real { localisation, .. } => {
-                PoseError::of_hands(localisation.put_down, &mut self.localisation_dice).applied(truth)
-            }
+            _ => PoseError::of_hands(sensing.eyes.put_down(), &mut self.localisation_dice).applied(truth),
         }
     }
 }
@@ -248,10 +246,8 @@ fn deliver_frames(
     mut eyes: Query<(&Robot, &mut Eyesight, &mut Percepts), Without<OffPitch>>,
 ) {
     for (robot, mut eyesight, mut percepts) in &mut eyes {
-        let latency = match &robot.sensing.eyes {
-            Eyes::Perfect => 0,
-            Eyes::Real { camera, .. } => (camera.latency / clock.dt).round() as u64,
-        };
+        let latency =
+            robot.sensing.eyes.camera().map_or(0, |camera| (camera.latency / clock.dt).round() as u64);
         while eyesight.under_way.front().is_some_and(|frame| frame.taken + latency <= clock.tick) {
             percepts.frame = eyesight.under_way.pop_front();
         }

@@ -6,8 +6,7 @@ use super::localisation::odometry_error;
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::robot::{
-    Drive, DriveCommand, Eyes, Odometry, OdometryNoise, OdometrySource, OffPitch, Robot, RobotKind,
-    WheelSpeeds, reckon,
+    Drive, DriveCommand, Odometry, OdometrySource, OffPitch, Robot, RobotKind, WheelSpeeds, reckon,
 };
 
 /// Robots that are told to move faster than this, m/s, and that move slower than the second, are stalled.
@@ -21,18 +20,15 @@ type Reckoned<'a> = (&'a Robot, &'a Pose, &'a Twist, &'a DriveCommand, &'a mut O
 pub(super) fn read_odometry(clock: Res<Clock>, mut robots: Query<Reckoned, Without<OffPitch>>) {
     for (robot, pose, twist, command, mut odometry) in &mut robots {
         let truth = felt(&robot.kind, pose, twist);
-        let (velocity, turn_rate) = match &robot.sensing.eyes {
-            Eyes::Real { odometry: OdometryNoise { from: OdometrySource::Motors, .. }, .. } => {
-                reported(*command, &robot.kind, truth)
-            }
+        let noise = robot.sensing.eyes.odometry();
+        let (velocity, turn_rate) = match noise {
+            Some(noise) if noise.from == OdometrySource::Motors => reported(*command, &robot.kind, truth),
             _ => truth,
         };
         (odometry.speed, odometry.turn_rate) = (velocity.x, turn_rate);
         let (mut way, mut turn) = (velocity * clock.dt, turn_rate * clock.dt);
         odometry.unjudged += way.length();
-        if let Eyes::Real { odometry: noise, .. } = &robot.sensing.eyes
-            && robot.senses(&clock)
-        {
+        if let Some(noise) = noise.filter(|_| robot.senses(&clock)) {
             let distance = std::mem::take(&mut odometry.unjudged);
             let (more, more_turn) = odometry_error(noise, distance, &mut odometry.dice);
             (way.x, turn) = (way.x + more, turn + more_turn);

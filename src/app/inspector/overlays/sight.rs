@@ -11,7 +11,7 @@ use crate::robot::Eyes;
 
 /// Solid to the farthest ball, dashed on to the farthest robot.
 pub(super) fn draw_field_of_view(pens: &mut Pens, eyes: &Eyes, from: Pose, pixel: f32) {
-    let Eyes::Real { camera, .. } = eyes else { return };
+    let Some(camera) = eyes.camera() else { return };
     let opening = camera.field_of_view.to_radians();
     let tint = colours::SENSED.with_alpha(0.4);
     let ball = outlines::wedge(from.position, from.heading, opening, camera.ball_range);

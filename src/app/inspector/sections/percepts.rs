@@ -22,9 +22,9 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
 }
 
 fn camera(eyes: &Eyes) -> String {
-    match eyes {
-        Eyes::Perfect => "Perfect eyes: everything, at once".into(),
-        Eyes::Real { camera, .. } => format!(
+    match eyes.camera() {
+        None => "Perfect eyes: everything, at once".into(),
+        Some(camera) => format!(
             "A camera {}° wide that sees the ball up to {} and robots up to {} away, {} frames a second",
             format::fixed(camera.field_of_view, 0),
             format::metres(camera.ball_range),

@@ -1,0 +1,38 @@
+//! All that people calibrate of a camera, as `assets/cameras/*.ron` has it.
+
+use serde::{Deserialize, Serialize};
+
+use super::colours::ColourTable;
+use super::optics::Optics;
+use super::settings::CameraSettings;
+use crate::data::{Fault, Validate};
+
+/// A camera as it is built, set and calibrated.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraCalibration {
+    /// Its name for people.
+    pub name: String,
+    /// How it is built; not changed while it runs.
+    pub optics: Optics,
+    /// How it is set.
+    pub settings: CameraSettings,
+    /// What colours look like to it, set like that.
+    pub colours: ColourTable,
+}
+
+impl CameraCalibration {
+    /// Width and height of a picture, pixels.
+    pub fn picture_size(&self) -> (usize, usize) {
+        let step = self.settings.resolution.step();
+        (self.optics.width / step, self.optics.height / step)
+    }
+}
+
+impl Validate for CameraCalibration {
+    fn validate(&self) -> Result<(), Fault> {
+        self.optics.validate_as("optics")?;
+        self.settings.validate_as("settings")?;
+        self.colours.validate_as("colours")
+    }
+}
