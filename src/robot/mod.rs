@@ -1,5 +1,6 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
+mod calibrated_camera;
 mod events;
 mod footing;
 mod gait;
@@ -20,6 +21,7 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use smallvec::SmallVec;
 
+pub use calibrated_camera::{CalibratedCamera, CameraSet, ColoursSet};
 pub use events::{Misled, PutDown, RobotStart, StrategyChanged, SwitchedOff, SwitchedOn};
 pub use footing::{ContactCost, Falls, Footing};
 pub use gait::Gait;
@@ -52,6 +54,10 @@ pub(crate) fn plugin(app: &mut App) {
         .starts(|_: &RobotStart, _| Percepts::default())
         .on(|percepts, _: &PutDown, _| *percepts = Percepts::default())
         .on(|percepts, _: &SwitchedOn, _| *percepts = Percepts::default());
+    app.match_component::<CalibratedCamera>()
+        .may_start(|start: &RobotStart, _| start.calibration.clone().map(CalibratedCamera))
+        .on(|camera, set: &CameraSet, _| camera.set(set))
+        .on(|camera, set: &ColoursSet, _| camera.set_colours(set));
     app.match_component::<Odometry>().starts(|start: &RobotStart, _| Odometry::new(start.seed, start.id));
     app.match_component::<SteeringIntent>()
         .starts(|_: &RobotStart, _| SteeringIntent::Stop)

@@ -15,6 +15,7 @@ use crate::protocol::role_swap::Reassignment;
 use crate::robot::pilot::Pilot;
 use crate::robot::{HeadIntent, KickIntent, Restart, RobotFailure, RobotKind, Sensing, SteeringIntent};
 use crate::strategy::Strategy;
+use crate::vision::{CameraSettings, ColourTable};
 
 /// Something that is to happen at the next tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,6 +64,10 @@ pub enum RobotChange {
     Recalibrate(Calibration),
     /// It takes itself to be elsewhere from now on: by so many metres in the pitch frame, and turned by so many radians.
     Mislead { by: Vec2, turn: f32 },
+    /// Its running camera is set otherwise. Only robots that see by pictures have one to be set.
+    SetCamera(CameraSettings),
+    /// Its pictures are cut by other thresholds.
+    SetColours(ColourTable),
     /// It decides in this process from now on, as if it had just been switched on, and counts its messages from here on.
     PlayHere { counter: u32 },
 }
@@ -185,7 +190,13 @@ impl Request {
         match self {
             Request::SetWeight { team, .. } => *team == robot.team,
             Request::Robot(other, change) => {
-                let is_of_body = matches!(change, RobotChange::Penalise | RobotChange::PlayHere { .. });
+                let is_of_body = matches!(
+                    change,
+                    RobotChange::Penalise
+                        | RobotChange::PlayHere { .. }
+                        | RobotChange::SetCamera(_)
+                        | RobotChange::SetColours(_)
+                );
                 *other == robot && !is_of_body
             }
             _ => false,

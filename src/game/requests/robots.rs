@@ -11,7 +11,7 @@ use crate::comms::tcm::CountFrom;
 use crate::data::{Bound, Validate};
 use crate::ids::RobotId;
 use crate::mind::teamwork::SwapAsked;
-use crate::robot::{Misled, Restart, Robot, RobotKind, SwitchedOff, SwitchedOn};
+use crate::robot::{CameraSet, ColoursSet, Misled, Restart, Robot, RobotKind, SwitchedOff, SwitchedOn};
 use crate::state::event;
 use crate::strategy::Strategies;
 use crate::world::referee::PenaltiesDue;
@@ -47,6 +47,12 @@ pub(super) fn change_robots(
             }
             RobotChange::Penalise => penalties.0.push(*id),
             RobotChange::Recalibrate(calibration) => recalibrate(&mut robot, calibration),
+            RobotChange::SetCamera(settings) => {
+                entity.queue(event(CameraSet(*settings)));
+            }
+            RobotChange::SetColours(colours) => {
+                entity.queue(event(ColoursSet(colours.clone())));
+            }
             RobotChange::Swap(reassignment) => {
                 entity.queue(event(SwapAsked(reassignment.clone())));
             }
