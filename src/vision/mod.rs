@@ -7,6 +7,7 @@ mod calibration;
 mod colours;
 mod image;
 mod optics;
+pub mod paint;
 mod settings;
 
 pub use calibration::CameraCalibration;

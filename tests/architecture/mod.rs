@@ -12,7 +12,7 @@ use pathfinding::prelude::strongly_connected_components;
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("data", &[]),
     ("pitch", &["data"]),
-    ("vision", &["data"]),
+    ("vision", &["data", "pitch"]),
     ("protocol", &["data"]),
     ("strategy", &["data", "pitch", "protocol"]),
     ("robot", &["data", "strategy", "vision"]),
