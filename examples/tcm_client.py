@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Listens to Touchline's robots, or tells them something. Written from docs/tcm.md alone.
+"""Listens to Touchline's robots, tells them something, or fetches a picture. Written from docs/tcm.md alone.
 
 tcm_client.py listen --bind 127.0.0.1:7499
 tcm_client.py send --to 127.0.0.1:7400 --as "computer 0" --text "hello"
+tcm_client.py image --to 127.0.0.1:7500 --for "home 1" --file picture.ppm
 tcm_client.py --self-test
 """
 
@@ -118,6 +119,17 @@ def value(kind, data):
 U8, U32, F32 = lambda data: take(data, 1)[0], u32, lambda data: struct.unpack("<f", take(data, 4))[0]
 VEC2, HEAD = {"x": F32, "y": F32}, {"time": U32, "robot": U8}
 CONFIGURATION = {"epoch": U32, "initiator": U8, "roles": [U8]}
+BYTES, BOOL = lambda data: take(data, u32(data)), (False, True)
+STRING, POSE, GAZE = lambda data: BYTES(data).decode(), {**VEC2, "heading": F32}, {"pan": F32, "tilt": F32}
+STEERING = ("stop", {"heading": F32, "facing": F32, "speed": F32}, {"turn": F32})
+COLOURS = ("orange", "yellow", "sky blue", "pink", "red", "dark blue", "white", "green")
+DEBUG = {
+    **{"number": U32, "tick": U32, "pose": POSE, "is_localised": BOOL},
+    "ball": (None, {"position": VEC2, "velocity": VEC2, "age": F32}),
+    **{"role": STRING, "acting_as": STRING, "states": [STRING], "steering": STEERING},
+    **{"kick": ("nothing", "hold", U32), "head": {"pan": F32, "speed": F32}, "is_driven": BOOL},
+    "colours": [{"class": COLOURS, "recall": F32, "precision": F32}],
+}
 TYPES = {
     1: ("position", {**HEAD, "position": VEC2, "heading": VEC2, "configuration": (None, CONFIGURATION)}),
     2: ("have-ball", {**HEAD, "have_ball": (False, True), "role": U8}),
@@ -125,11 +137,14 @@ TYPES = {
     5: ("values", {**HEAD, "values": [F32], "wish": (None, U8)}),
     6: ("book", {"distance": U32, "term": U32, "key": U32}),
     7: ("ball report", {"time": U32, "position": VEC2, "age": F32}),
-    8: ("text", lambda data: take(data, u32(data)).decode()),
+    8: ("text", STRING),
     9: ("LOCK", {"sequence": U32}),
     10: ("ACKLOCK", {"sequence": U32, "holds": (U8, CONFIGURATION)}),
     11: ("SWAP", {"sequence": U32, "order": (U8, [U8])}),
     12: ("ACKSWAP", {"sequence": U32}),
+    22: ("image", {"number": U32, "tick": U32, "width": U32, "height": U32, "gaze": GAZE, "pixels": BYTES}),
+    24: ("debug data", DEBUG),
+    29: ("answer", {"number": U32, "outcome": ("accepted", {"what": STRING, "why": STRING})}),
 }
 
 
@@ -156,6 +171,42 @@ def listen(conn):
             print(f"from {sender[0]}:{sender[1]}: {error}", flush=True)
 
 
+def varint(number):
+    return bytes([number]) if number < 128 else bytes([number & 127 | 128]) + varint(number >> 7)
+
+
+def ppm(picture):
+    """The bytes of a PPM file: Y, U and V of each pixel as red, green and blue."""
+    rgb, pixels = bytearray(), picture["pixels"]
+    for y, u, v in zip(pixels[::3], pixels[1::3], pixels[2::3]):
+        u, v = u - 128, v - 128
+        for colour in (y + 1.402 * v, y - 0.344136 * u - 0.714136 * v, y + 1.772 * u):
+            rgb.append(min(255, max(0, round(colour))))
+    return b"P6\n%d %d\n255\n" % (picture["width"], picture["height"]) + rgb
+
+
+def fetch_image(conn, source, robot, match, patience):
+    """Asks for pictures twice a second until one is whole. A match has pictures, data and orders at three ports in a row."""
+    assembly, begin, asked = Assembly(), time.monotonic(), 0.0
+    conn.settimeout(0.1)
+    while (now := time.monotonic()) < begin + patience:
+        if now > asked + 0.5:
+            asked, counter = now, time.time_ns() // 1_000_000 % (1 << 32)
+            wanted = varint(counter) + struct.pack("<ff", 10.0, 0.0)
+            for datagram in cut(source + b"\6", robot + b"\6", counter, 21, wanted):
+                conn.sendto(datagram, (match[0], match[1] + 2))
+        try:
+            message = assembly.accept(conn.recv(65536), now)
+        except (TimeoutError, ConnectionError):
+            continue
+        name, data = decode(*message[2:]) if message else (None, None)
+        if name == "answer" and data["outcome"] != "accepted":
+            raise SystemExit(f"refused: {data['outcome']['why']}")
+        if name == "image":
+            return data
+    raise SystemExit(f"no whole picture has come from {match[0]}:{match[1]} within {patience} s")
+
+
 def self_test():
     """The examples of docs/tcm.md."""
     text = bytes.fromhex("54434D02 01000006 00010206 07000000 06000000 0800 0000 0100 0600 0568656C6C6F")
@@ -169,33 +220,43 @@ def self_test():
     source, to, *data = assembly.accept(first)
     assert (names(source)[0], names(to)[0], decode(*data)) == ("home 3", "home", ("position", position))
     assert assembly.accept(first) is None
+    image = decode(22, bytes.fromhex("01 AC02 02 01 0000003F 000080BE 06 010203 040506"))
+    picture = dict(number=1, tick=300, width=2, height=1, gaze=dict(pan=0.5, tilt=-0.25), pixels=bytes(range(1, 7)))
+    assert image == ("image", picture) and varint(300) == b"\xac\2"
+    assert ppm({**picture, "pixels": bytes([90, 128, 128, 255, 128, 128])}) == b"P6\n2 1\n255\nZZZ\xff\xff\xff"
+    assert decode(29, bytes.fromhex("AC02 00"))[1] == dict(number=300, outcome="accepted")
+    assert decode(29, b"\1\1\x08strategy\2no")[1]["outcome"] == dict(what="strategy", why="no")
     print("ok")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("command", nargs="?", choices=["listen", "send"], default="listen")
+    parser.add_argument("command", nargs="?", choices=["listen", "send", "image"], default="listen")
     parser.add_argument("--self-test", action="store_true", help="decode the examples of docs/tcm.md")
     parser.add_argument("--bind", metavar="HOST:PORT", default="127.0.0.1:7499", help="where to listen")
     parser.add_argument("--to", metavar="HOST:PORT", default="127.0.0.1:7400", help="where to send")
     parser.add_argument("--as", dest="source", metavar="WHO", type=peer, default="computer 0")
     parser.add_argument("--for", dest="to_whom", metavar="WHO", type=peer, default="everybody")
     parser.add_argument("--text", default="hello")
+    parser.add_argument("--file", default="picture.ppm", help="where to write a picture, as PPM")
+    parser.add_argument("--timeout", metavar="SECONDS", type=float, default=5.0, help="how long to wait for one")
     options = parser.parse_args()
     conn = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    host, port = (options.to if options.command == "send" else options.bind).rsplit(":", 1)
+    host, port = (options.bind if options.command == "listen" else options.to).rsplit(":", 1)
     if options.self_test:
         self_test()
     elif options.command == "listen":
         conn.bind((host, int(port)))
         listen(conn)
+    elif options.command == "image":
+        match, robot = (host, int(port)), options.to_whom
+        picture = fetch_image(conn, options.source, robot, match, options.timeout)
+        with open(options.file, "wb") as file:
+            file.write(ppm(picture))
     else:
         text = options.text.encode()
-        rest, length = len(text), b""
-        while rest >= 128:
-            rest, length = rest >> 7, length + bytes([rest & 127 | 128])
         counter = time.time_ns() // 1_000_000 % (1 << 32)
-        for datagram in cut(options.source + b"\6", options.to_whom + b"\6", counter, 8, length + bytes([rest]) + text):
+        for datagram in cut(options.source + b"\6", options.to_whom + b"\6", counter, 8, varint(len(text)) + text):
             conn.sendto(datagram, (host, int(port)))
 
 

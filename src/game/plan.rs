@@ -1,5 +1,6 @@
 //! What is played: the match file, what the command line or the menu changes of it, and the plan with every file read.
 
+use std::ffi::OsStr;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::files::{checked, file_named, read_addresses};
 use super::situation::Situation;
-use super::team::{TeamFile, TeamPlan, give_roles, read_strategy};
+use super::team::{TeamFile, TeamPlan, fit, give_roles, read_strategy};
 use crate::comms::radio::{FaultRule, Radio};
 use crate::comms::tcm::{Directory, HOST, TcmSettings};
 use crate::data::{AssetFolder, AssetKind, DataError, Fault, Field, Source, Validate, no_such};
@@ -15,8 +16,8 @@ use crate::game::net::{NetworkPlan, team_numbers_fault};
 use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
-use crate::strategy::StrategyReading;
 use crate::strategy::teamwork::TeamworkFile;
+use crate::strategy::{Strategy, StrategyReading};
 use crate::world::referee::RuleBook;
 
 /// A match as it is written in `assets/matches/*.ron`.
@@ -83,6 +84,8 @@ pub struct Choice {
 pub struct MatchPlan {
     /// Its name for people.
     pub name: String,
+    /// Where the files are that others name.
+    pub assets: AssetFolder,
     /// The pitch.
     pub pitch: Pitch,
     /// The ball.
@@ -124,11 +127,28 @@ impl MatchPlan {
     /// Reads a team's strategy from its files as they are now, just as it was read for the match, for robots that play what
     /// it was before.
     pub fn reread(&self, team: Team, assets: &AssetFolder) -> StrategyReading {
-        let team = self.team(team);
+        let TeamPlan { names, teamwork_change, kind, .. } = self.team(team);
+        self.follow(team, read_strategy(assets, names, teamwork_change, kind, (&self.pitch, &self.ball)))
+    }
+
+    /// Checks the text of a strategy that was sent under a name, as [`MatchPlan::reread`] does its file.
+    ///
+    /// # Errors
+    /// Says what is wrong with the text's name, line, column and field.
+    pub fn read_sent(&self, team: Team, name: &str, text: String) -> Result<Strategy, DataError> {
+        let TeamPlan { names, teamwork_change, kind, .. } = self.team(team);
+        let source = Source::new(Path::new(name).file_name().unwrap_or(OsStr::new("strategy")), text);
+        let reading = Strategy::read_sent(&self.assets, source, Some(&self.pitch));
+        self.follow(team, fit(reading, names, teamwork_change, kind, (&self.pitch, &self.ball))).strategy
+    }
+
+    /// A strategy for robots that play what the team played at first.
+    fn follow(&self, team: Team, reading: StrategyReading) -> StrategyReading {
+        let TeamPlan { strategy: before, roles, .. } = self.team(team);
         let at = |field: &str| Field::root().key(field);
-        read_strategy(assets, &team.names, &team.teamwork_change, &team.kind, (&self.pitch, &self.ball))
-            .require(|strategy| strategy.can_follow(&team.strategy).map_err(|reason| (at("players"), reason)))
-            .require(|strategy| give_roles(strategy, &team.roles).map_err(|reason| (at("roles"), reason)))
+        reading
+            .require(|strategy| strategy.can_follow(before).map_err(|reason| (at("players"), reason)))
+            .require(|strategy| give_roles(strategy, roles).map_err(|reason| (at("roles"), reason)))
     }
 
     /// Reads everything that a match needs.
@@ -183,6 +203,7 @@ impl MatchPlan {
         }
         let plan = MatchPlan {
             name: file.name,
+            assets: assets.clone(),
             pitch,
             ball: file.ball,
             rules: file.rules,

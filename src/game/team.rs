@@ -129,7 +129,18 @@ pub(super) fn read_strategy(
     (pitch, ball): (&Pitch, &BallKind),
 ) -> StrategyReading {
     let path = assets.file(AssetKind::Strategy, &names.strategy);
-    Strategy::read(assets, &path, Some(pitch))
+    fit(Strategy::read(assets, &path, Some(pitch)), names, change, kind, (pitch, ball))
+}
+
+/// A team's strategy from what was read of it: it must be one for its robots and for the pitch.
+pub(super) fn fit(
+    reading: StrategyReading,
+    names: &TeamFile,
+    change: &TeamworkChange,
+    kind: &RobotKind,
+    (pitch, ball): (&Pitch, &BallKind),
+) -> StrategyReading {
+    reading
         .with_teamwork(change)
         .require(|strategy| {
             if strategy.robot_kinds.contains(&names.robot) {

@@ -17,6 +17,19 @@ pub enum SteeringIntent {
     Spin(f32),
 }
 
+impl SteeringIntent {
+    /// Whether all its numbers are finite.
+    pub fn is_finite(self) -> bool {
+        match self {
+            SteeringIntent::Stop => true,
+            SteeringIntent::Steer { heading, facing, speed } => {
+                heading.is_finite() && facing.is_finite() && speed.is_finite()
+            }
+            SteeringIntent::Spin(rate) => rate.is_finite(),
+        }
+    }
+}
+
 /// What a robot wants to do to the ball besides walking into it; written by the Motor stage.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Reflect)]
 pub enum KickIntent {
@@ -36,6 +49,13 @@ pub struct HeadIntent {
     pub pan: f32,
     /// How fast it should turn there, rad/s.
     pub speed: f32,
+}
+
+impl HeadIntent {
+    /// Whether both numbers are finite.
+    pub fn is_finite(self) -> bool {
+        self.pan.is_finite() && self.speed.is_finite()
+    }
 }
 
 /// Where a head looks; always straight ahead without a neck. Written by the Drive stage.

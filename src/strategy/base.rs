@@ -15,13 +15,20 @@ const MAX_BASES: usize = 8;
 pub(super) struct Lineage<'a> {
     assets: &'a AssetFolder,
     row: Vec<PathBuf>,
+    /// Whether the strategy itself is no file here.
+    is_sent: bool,
     /// Every file that was looked for, whether or not it is there.
     pub(super) files: Vec<PathBuf>,
 }
 
 impl Lineage<'_> {
     pub(super) fn of<'a>(path: &Path, assets: &'a AssetFolder) -> Lineage<'a> {
-        Lineage { assets, row: vec![path.to_owned()], files: vec![path.to_owned()] }
+        Lineage { assets, row: vec![path.to_owned()], is_sent: false, files: vec![path.to_owned()] }
+    }
+
+    /// That of a text from elsewhere, which reaches the files of this machine by the names of assets only.
+    pub(super) fn of_sent<'a>(path: &Path, assets: &'a AssetFolder) -> Lineage<'a> {
+        Lineage { is_sent: true, ..Lineage::of(path, assets) }
     }
 
     /// Fills what a file leaves out from the strategy that it is based on.
@@ -32,7 +39,11 @@ impl Lineage<'_> {
     ) -> Result<StrategyFile, DataError> {
         let Some(name) = &file.based_on else { return Ok(file) };
         let fault = |message| Err(source.error_at(&Field::root().key("based_on"), message));
-        let Some(path) = self.find(name, &source.path) else {
+        let is_sent = self.is_sent && self.row.len() == 1;
+        if is_sent && is_path(name) {
+            return fault("a strategy that is sent may be based on an asset only, not on a path".into());
+        }
+        let Some(path) = self.find(name, &source.path, is_sent) else {
             let known = self.assets.names(AssetKind::Strategy).join(", ");
             return fault(format!(
                 "there is no strategy `{name}` beside this file or among the assets: {known}"
@@ -53,11 +64,11 @@ impl Lineage<'_> {
     }
 
     /// The file of a base: that of a path, seen from the folder of the file that names it; else the file of that name in
-    /// the same folder, unless it is the naming file itself; else the one among the assets.
-    fn find(&mut self, name: &str, from: &Path) -> Option<PathBuf> {
+    /// the same folder, unless it is the naming file itself; else the one among the assets. Beside what was sent is nothing.
+    fn find(&mut self, name: &str, from: &Path, is_sent: bool) -> Option<PathBuf> {
         let is_whole = Path::new(name).extension().is_some_and(|it| it.eq_ignore_ascii_case("ron"));
         let beside = from.with_file_name(if is_whole { name.to_owned() } else { format!("{name}.ron") });
-        let mut places = vec![beside];
+        let mut places = if is_sent { Vec::new() } else { vec![beside] };
         if !is_path(name) {
             places.retain(|beside| !is_same_file(beside, from));
             places.push(self.assets.file(AssetKind::Strategy, name));

@@ -17,6 +17,8 @@ pub struct StrategyReading {
     pub strategy: Result<Strategy, DataError>,
     /// What the files say of teamwork.
     teamwork: TeamworkFile,
+    /// Its own text.
+    source: Source,
     /// Its own file first, then where those that it is based on are or were looked for: if one of these changes, comes or
     /// goes, so may the strategy.
     pub files: Vec<PathBuf>,
@@ -53,7 +55,7 @@ impl StrategyReading {
     ) -> StrategyReading {
         self.strategy = self.strategy.and_then(|mut strategy| match check(&mut strategy) {
             Ok(()) => Ok(strategy),
-            Err((field, message)) => Err(Source::read(&self.files[0])?.error_at(&field, message)),
+            Err((field, message)) => Err(self.source.error_at(&field, message)),
         });
         self
     }
@@ -63,13 +65,30 @@ impl Strategy {
     /// Reads and checks a strategy file and those that it is based on. Its positions are stretched to a pitch, and are as
     /// they are written without one.
     pub fn read(assets: &AssetFolder, path: &Path, pitch: Option<&Pitch>) -> StrategyReading {
-        let mut lineage = Lineage::of(path, assets);
-        let read = Source::read(path).and_then(|source| Strategy::resolved(&source, &mut lineage, pitch));
-        let (strategy, teamwork) = match read {
+        match Source::read(path) {
+            Ok(source) => Strategy::reading(source, Lineage::of(path, assets), pitch),
+            Err(error) => StrategyReading {
+                strategy: Err(error),
+                teamwork: TeamworkFile::default(),
+                source: Source::new(path, ""),
+                files: vec![path.to_owned()],
+            },
+        }
+    }
+
+    /// Checks the text of a strategy that was sent from elsewhere as [`Strategy::read`] does its file. It may be based on
+    /// strategies among the assets only.
+    pub fn read_sent(assets: &AssetFolder, source: Source, pitch: Option<&Pitch>) -> StrategyReading {
+        let lineage = Lineage::of_sent(&source.path, assets);
+        Strategy::reading(source, lineage, pitch)
+    }
+
+    fn reading(source: Source, mut lineage: Lineage, pitch: Option<&Pitch>) -> StrategyReading {
+        let (strategy, teamwork) = match Strategy::resolved(&source, &mut lineage, pitch) {
             Ok((strategy, file)) => (Ok(strategy), file.teamwork),
             Err(error) => (Err(error), TeamworkFile::default()),
         };
-        StrategyReading { strategy, teamwork, files: lineage.files }
+        StrategyReading { strategy, teamwork, source, files: lineage.files }
     }
 
     /// Checks the text of a strategy file that is already at hand, as [`Strategy::read`] does.

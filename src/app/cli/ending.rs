@@ -14,7 +14,7 @@ use crate::game::net::NetworkError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ending {
     Done = 0,
-    /// A scenario has failed, or a robot has lost its match.
+    /// A scenario has failed, a robot has lost its match, or its picture did not arrive.
     Failed = 1,
     BadInput = 2,
     /// A result could not be written.
@@ -30,8 +30,8 @@ pub(super) enum Ending {
 pub(super) const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    a scenario failed, or a robot has lost its match
-  2    bad input: a file, an option or an address
+  1    a scenario failed, a robot has lost its match, or what ChaosManager wanted has not arrived
+  2    bad input: a file, an option or an address, or an order that was refused
   3    a result could not be written
   4    the window could not be kept open
   130  interrupted by Ctrl-C; the result so far is printed

@@ -1,12 +1,14 @@
 //! The command line. One file a subcommand; `ending` alone says how commands end.
 
 mod box_report;
+mod chaos;
 mod check;
 mod duel;
 mod ending;
 mod interrupt;
 mod kinds;
 mod options;
+mod picture_file;
 mod play;
 mod progress;
 mod robot;
@@ -48,6 +50,9 @@ enum CliCommand {
     /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
     #[command(after_help = EXIT_CODES)]
     Robot(robot::RobotCommand),
+    /// Look into a robot of a match that is elsewhere, set its camera, or send its team a strategy, over UDP.
+    #[command(after_help = EXIT_CODES)]
+    Chaos(chaos::ChaosCommand),
     /// Read asset files and say what is wrong with them.
     #[command(after_help = EXIT_CODES)]
     Check(check::CheckCommand),
@@ -76,6 +81,7 @@ impl Cli {
             Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),
+            Some(CliCommand::Chaos(chaos)) => chaos.run(&mut out),
             Some(CliCommand::Check(check)) => check.run(&assets, &mut out),
         }?;
         out.flush()?;

@@ -7,6 +7,7 @@ use std::time::Duration;
 use clap::{ArgGroup, Args};
 
 use crate::data::{AssetFolder, DataError};
+use crate::game::net::chaos::ChaosPlan;
 use crate::game::net::{self, NetworkPlan};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
@@ -64,6 +65,13 @@ pub(super) struct HostOptions {
     /// robots then keep to the league's budget and length of messages.
     #[arg(long, value_name = "HOST", conflicts_with = "remote")]
     league_ports: Option<IpAddr>,
+    /// Let ChaosManager look into robots of this match, set their cameras and drive them: the first of three ports in a row,
+    /// such as 127.0.0.1:7500. A match without a window then keeps to real time.
+    #[arg(long, value_name = "ADDRESS")]
+    chaos: Option<SocketAddr>,
+    /// The addresses that ChaosManager may speak from, with commas between; this machine only if not given.
+    #[arg(long, value_name = "HOST,HOST", value_delimiter = ',', requires = "chaos")]
+    chaos_from: Vec<IpAddr>,
     /// Minutes of a half.
     #[arg(long, value_name = "MINUTES")]
     minutes: Option<f32>,
@@ -84,7 +92,7 @@ impl SeedOption {
 }
 
 /// Reads a time of up to a day.
-fn seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse::<f32>().ok().filter(|seconds| (0.0..=86_400.0).contains(seconds));
     seconds.map(Duration::from_secs_f32).ok_or_else(|| "must be a number of seconds, from 0 to 86400".into())
 }
@@ -168,6 +176,7 @@ impl HostOptions {
             version: self.announce_version.unwrap_or_default(),
             team_numbers: self.team_numbers,
             wait_for_box: self.wait_for_box,
+            chaos: self.chaos.map(|at| ChaosPlan { at, from: self.chaos_from.clone() }),
         })
     }
 }

@@ -8,6 +8,7 @@ use super::box_report::BoxReport;
 use crate::comms::radio::{LinkCounters, RadioRecord};
 use crate::comms::tcm::{MessageBudgets, Spent};
 use crate::data::in_one_line;
+use crate::game::net::chaos::ChaosFigures;
 use crate::game::net::{self, CarrierFigures, RemoteFigures, UdpCarrier};
 use crate::game::record::{
     AGGLOMERATION, BallOverlap, BookingFigures, CROWD, ContactTotal, GripFigures, HoldFigures, KickFigures,
@@ -63,6 +64,9 @@ pub(super) struct RunReport {
     /// Counts of the datagrams that crossed a network.
     #[serde(skip_serializing_if = "Option::is_none")]
     network: Option<Network>,
+    /// Counts of what has passed between the match and ChaosManager.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chaos: Option<ChaosFigures>,
     /// What was heard of the referee box that refereed it.
     #[serde(skip_serializing_if = "Option::is_none")]
     referee_box: Option<BoxReport>,
@@ -201,6 +205,7 @@ impl RunReport {
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<RadioRecord>())),
             budgets: TeamBudget::of(game),
             network: Network::of(game),
+            chaos: net::chaos_figures(game.world()),
             referee_box: BoxReport::of(game),
             seconds: clock.now(),
             ticks: clock.tick,
@@ -236,6 +241,9 @@ impl RunReport {
         if let Some(network) = &self.network {
             network.print(out)?;
         }
+        if let Some(chaos) = &self.chaos {
+            print_chaos(chaos, out)?;
+        }
         if let Some(referee_box) = &self.referee_box {
             referee_box.print(out)?;
         }
@@ -247,6 +255,23 @@ impl RunReport {
         )?;
         writeln!(out, "seed {}, digest {}", self.seed, self.digest)
     }
+}
+
+fn print_chaos(chaos: &ChaosFigures, out: &mut impl Write) -> io::Result<()> {
+    let (images, data, orders) = (chaos.images, chaos.data, chaos.orders);
+    writeln!(
+        out,
+        "ChaosManager {:5} pictures and {} data sent, {} dropped, {} bytes",
+        images.sent,
+        data.sent,
+        images.dropped + data.dropped,
+        images.bytes + data.bytes
+    )?;
+    writeln!(
+        out,
+        "            {:6} orders obeyed, {} refused; {} datagrams from elsewhere, {} that say nothing",
+        orders.obeyed, orders.refused, orders.foreign, orders.malformed
+    )
 }
 
 /// A part of a whole; nothing of nothing is 0, since JSON has no other number for it.

@@ -18,6 +18,13 @@ pub enum NetworkError {
     /// An entity of the match has no address.
     #[error("{0} has no address: add it to the addresses")]
     NoAddress(Peer),
+    /// There are not three ports from this one on.
+    #[error("{0} is not the first of three ports for ChaosManager: give one from 1 to 65533")]
+    NoPorts(SocketAddr),
+    /// No match has answered ChaosManager in time.
+    #[error("no match answers ChaosManager at {address} within {} s: start it with `--chaos {address}`",
+        patience.as_secs_f32())]
+    NoAnswer { address: SocketAddr, patience: Duration },
     /// No referee box was heard in time.
     #[error("no referee box was heard at {address} within {} s", patience.as_secs_f32())]
     NoBox { address: SocketAddr, patience: Duration },

@@ -7,6 +7,7 @@ mod announcer;
 mod box_log;
 mod box_socket;
 mod carrier;
+pub mod chaos;
 mod error;
 mod greeting;
 mod introduction;
@@ -41,6 +42,7 @@ use crate::schedule::Tick;
 use crate::world::gamecontroller::BoxNews;
 use announcer::Announcer;
 use box_socket::BoxSocket;
+use chaos::{ChaosFigures, ChaosSockets};
 use remote_robots::RemoteRobots;
 use timing::unused_number;
 
@@ -72,6 +74,7 @@ struct Sockets {
     referee_box: Option<BoxSocket>,
     announcer: Option<Announcer>,
     remote: Option<RemoteRobots>,
+    chaos: Option<ChaosSockets>,
 }
 
 /// Makes a match ready to be played as its plan says, with sockets or with the recorded requests of a match that had them.
@@ -128,6 +131,9 @@ fn open_all(world: &mut World, plan: &MatchPlan) -> Result<(), NetworkError> {
     }
     if !wanted.remote.is_empty() {
         sockets.remote = Some(RemoteRobots::open(&directory, &wanted.remote, plan, session)?);
+    }
+    if let Some(chaos) = &wanted.chaos {
+        sockets.chaos = Some(ChaosSockets::open(plan, chaos, session)?);
     }
     if let Some(host) = wanted.league_ports {
         world.insert_resource(LeaguePorts::open(host, numbers)?);
@@ -205,6 +211,10 @@ fn exchange(world: &mut World) {
         if let Some(referee_box) = &mut sockets.referee_box {
             referee_box.exchange(world);
         }
+        // Robots in other processes are told in the same tick what is asked of their minds.
+        if let Some(chaos) = &mut sockets.chaos {
+            chaos.exchange(world);
+        }
         if let Some(remote) = &mut sockets.remote {
             remote.exchange(world);
         }
@@ -254,6 +264,11 @@ pub fn finish(world: &mut World) {
 pub fn remote_figures(world: &World) -> Vec<RemoteFigures> {
     let sockets = world.get_resource::<Sockets>();
     sockets.and_then(|sockets| sockets.remote.as_ref()).map(RemoteRobots::figures).unwrap_or_default()
+}
+
+/// Counts of what has passed between the match and ChaosManager, if it may be heard.
+pub fn chaos_figures(world: &World) -> Option<ChaosFigures> {
+    world.get_resource::<Sockets>()?.chaos.as_ref().map(ChaosSockets::figures)
 }
 
 fn with_remote<T>(world: &mut World, speak: impl FnOnce(&mut World, &mut RemoteRobots) -> T) -> Option<T> {

@@ -3,6 +3,8 @@
 use std::net::{IpAddr, SocketAddr};
 use std::time::Duration;
 
+use super::chaos::ChaosPlan;
+use super::error::NetworkError;
 use crate::ids::RobotId;
 use crate::world::gamecontroller::control::{NO_TEAM, Version};
 
@@ -25,6 +27,8 @@ pub struct NetworkPlan {
     pub team_numbers: Option<[u8; 2]>,
     /// How long a match waits for its referee box before it is given up.
     pub wait_for_box: Option<Duration>,
+    /// Where ChaosManager is heard, and whom it may obey.
+    pub chaos: Option<ChaosPlan>,
 }
 
 impl NetworkPlan {
@@ -32,6 +36,9 @@ impl NetworkPlan {
     pub fn fault(&self) -> Option<(&'static str, String)> {
         if let Some(message) = self.team_numbers.and_then(team_numbers_fault) {
             return Some(("--team-numbers", message));
+        }
+        if let Some(chaos) = self.chaos.as_ref().filter(|chaos| chaos.addresses().is_none()) {
+            return Some(("--chaos", NetworkError::NoPorts(chaos.at).to_string()));
         }
         let (listen, tell) = self.gamecontroller.zip(self.announce)?;
         let is_here = tell.ip().is_loopback() || tell.ip().is_unspecified();
@@ -44,7 +51,7 @@ impl NetworkPlan {
 
     /// Whether the match follows a clock that is not its own.
     pub fn is_in_real_time(&self) -> bool {
-        self.gamecontroller.is_some()
+        self.gamecontroller.is_some() || self.chaos.is_some()
     }
 }
 

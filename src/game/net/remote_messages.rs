@@ -9,7 +9,7 @@ use crate::comms::tcm::fragments::{USUAL_DATAGRAM, cut};
 use crate::comms::tcm::{Data, DataType, ExternalMessage, Module, Peer, RegisterData, data};
 use crate::game::requests::{Request, RobotWants};
 use crate::geometry::Pose;
-use crate::robot::{Frame, Orders, SteeringIntent};
+use crate::robot::{Frame, Orders};
 
 pub(super) fn plugin(app: &mut App) {
     app.register_data::<Introduction>().register_data::<Sensors>().register_data::<RobotReply>();
@@ -63,16 +63,8 @@ pub(super) fn datagrams<T: Data>(data: &T, from: Peer, to: Peer, counter: &mut u
 
 impl RobotWants {
     fn is_finite(&self) -> bool {
-        let steering = match self.steering {
-            SteeringIntent::Stop => true,
-            SteeringIntent::Steer { heading, facing, speed } => {
-                heading.is_finite() && facing.is_finite() && speed.is_finite()
-            }
-            SteeringIntent::Spin(rate) => rate.is_finite(),
-        };
-        steering
-            && self.head.pan.is_finite()
-            && self.head.speed.is_finite()
+        self.steering.is_finite()
+            && self.head.is_finite()
             && self.pose.is_finite()
             && self.ball.is_none_or(Vec2::is_finite)
     }
@@ -100,7 +92,7 @@ data!(RobotReply { REPLY, "reply", Module::REMOTE_ROBOTS, Routine; (it) = it: Ro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{HeadIntent, KickIntent};
+    use crate::robot::{HeadIntent, KickIntent, SteeringIntent};
 
     fn command(speed: f32) -> RobotReply {
         let wants = RobotWants {
