@@ -9,5 +9,6 @@ pub mod logging;
 pub mod match_request;
 #[cfg(feature = "window")]
 pub mod view;
+mod whole_file;
 #[cfg(feature = "window")]
 mod window;

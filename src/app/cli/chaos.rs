@@ -11,7 +11,7 @@ use super::ending::{CommandError, Ending, print_json, tell};
 use super::interrupt::Interrupt;
 use super::options::seconds;
 use super::picture_file::PictureFormat;
-use super::whole_file::{check_writable, write_whole};
+use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{DataError, Source};
 use crate::game::checked;
 use crate::game::net::NetworkError;

@@ -10,7 +10,7 @@ use clap::Args;
 use super::ending::{CommandError, Ending};
 use super::interrupt::Interrupt;
 use super::kinds;
-use super::whole_file::{check_writable, write_whole};
+use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, AssetKind, DataError, Field};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef, ScenarioReport, junit};
 

@@ -14,7 +14,6 @@ mod progress;
 mod robot;
 mod run;
 mod run_report;
-mod whole_file;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
