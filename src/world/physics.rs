@@ -133,19 +133,6 @@ pub fn register_bodies(world: &mut World) {
     world.flush();
 }
 
-/// Whether two bodies touch.
-pub fn touch(
-    simulation: &RapierContextSimulation,
-    bodies: &RapierRigidBodySet,
-    a: &RapierRigidBodyHandle,
-    b: &RapierRigidBodyHandle,
-) -> bool {
-    let (Some(a), Some(b)) = (bodies.bodies.get(a.0), bodies.bodies.get(b.0)) else { return false };
-    let pairs = a.colliders().iter().flat_map(|a| b.colliders().iter().map(move |b| (*a, *b)));
-    let contact = |(a, b)| simulation.narrow_phase.contact_pair(a, b);
-    pairs.filter_map(contact).any(|pair| pair.has_any_active_contact())
-}
-
 /// What a ball overlaps, for those who judge the physics.
 #[derive(SystemParam)]
 pub struct Overlaps<'w, 's> {

@@ -3,7 +3,6 @@
 use bevy::ecs::query::QueryData;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
-use bevy_rapier2d::prelude::*;
 use smallvec::SmallVec;
 
 use super::rulebook::RuleBook;
@@ -13,15 +12,14 @@ use crate::ids::RobotId;
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
 use crate::robot::handling::Handling;
-use crate::robot::{DriveCommand, OffPitch, RobotBodies};
+use crate::robot::{DriveCommand, OffPitch};
 use crate::world::ball::Ball;
-use crate::world::physics::touch;
+use crate::world::impulses::ContactImpulses;
 
 /// A robot as the referee sees it.
 #[derive(QueryData)]
 pub struct SeenRobot {
     id: &'static RobotId,
-    handles: &'static RobotBodies,
     pose: &'static Pose,
     twist: &'static Twist,
     command: &'static DriveCommand,
@@ -29,17 +27,15 @@ pub struct SeenRobot {
 }
 
 type Players<'w, 's> = Query<'w, 's, SeenRobot, Without<OffPitch>>;
-type BallBody = (&'static Pose, &'static RapierRigidBodyHandle);
 
 /// All that the referee looks at.
 #[derive(SystemParam)]
 pub(crate) struct RefereeView<'w, 's> {
     pitch: Res<'w, Pitch>,
     book: Res<'w, RuleBook>,
-    bodies: Single<'w, 's, &'static RapierRigidBodySet>,
-    simulation: Single<'w, 's, &'static RapierContextSimulation>,
+    contacts: Res<'w, ContactImpulses>,
     kind: Res<'w, BallKind>,
-    ball: Single<'w, 's, BallBody, With<Ball>>,
+    ball: Single<'w, 's, &'static Pose, With<Ball>>,
     players: Players<'w, 's>,
 }
 
@@ -50,12 +46,8 @@ impl RefereeView<'_, '_> {
 
     /// Contacts and motion only where a rule asks for them.
     pub(super) fn sight(&self) -> Sight {
-        let (pose, body) = *self.ball;
-        if self.book.watches_contacts() {
-            Sight::whole((pose, body), &self.players, &self.bodies, &self.simulation)
-        } else {
-            Sight::of_places(pose.position, &self.players)
-        }
+        let places = Sight::of_places(self.ball.position, &self.players);
+        if self.book.watches_contacts() { places.with_motion(&self.players, &self.contacts) } else { places }
     }
 }
 
@@ -71,8 +63,6 @@ pub(super) struct Sight {
     still: SmallVec<[RobotId; 8]>,
 }
 
-/// Robots whose centres are farther apart do not touch, m.
-const REACH: f32 = 2.0;
 /// A robot that is told to move towards another faster than this pushes it, m/s.
 const SHOVE: f32 = 0.05;
 /// Slower robots stand still, m/s and rad/s.
@@ -96,35 +86,33 @@ impl Sight {
     }
 
     /// Also contacts and motion.
-    fn whole(
-        ball: (&Pose, &RapierRigidBodyHandle),
-        players: &Players,
-        bodies: &RapierRigidBodySet,
-        simulation: &RapierContextSimulation,
-    ) -> Sight {
-        let mut sight = Sight::of_places(ball.0.position, players);
-        let contact = |a: &RapierRigidBodyHandle, b: &RapierRigidBodyHandle| touch(simulation, bodies, a, b);
+    fn with_motion(mut self, players: &Players, contacts: &ContactImpulses) -> Sight {
         for player in players {
             let id = *player.id;
-            if contact(&player.handles.unit, ball.1) {
-                sight.touching.push(id);
+            if contacts.units_at_ball.contains(&id) {
+                self.touching.push(id);
             }
             if player.handling.holds() {
-                sight.held_by = Some(id);
+                self.held_by = Some(id);
             }
             if player.twist.linear.length() < STILL.0 && player.twist.angular.abs() < STILL.1 {
-                sight.still.push(id);
+                self.still.push(id);
             }
-            let is_near = |other: &SeenRobotItem| other.pose.position.distance(player.pose.position) < REACH;
-            for other in players.iter().filter(|other| *other.id > id && is_near(other)) {
-                if contact(&player.handles.unit, &other.handles.unit) {
-                    sight.contacts.push((id, *other.id));
-                    sight.shoving.extend(player.shoves(&other).then_some((id, *other.id)));
-                    sight.shoving.extend(other.shoves(&player).then_some((*other.id, id)));
-                }
+            if contacts.units.iter().any(|(lesser, _)| *lesser == id) {
+                self.add_contacts(&player, players, contacts);
             }
         }
-        sight
+        self
+    }
+
+    /// Those that a robot touches, of the robots after it.
+    fn add_contacts(&mut self, player: &SeenRobotItem, players: &Players, contacts: &ContactImpulses) {
+        let id = *player.id;
+        for other in players.iter().filter(|other| contacts.units.contains(&(id, *other.id))) {
+            self.contacts.push((id, *other.id));
+            self.shoving.extend(player.shoves(&other).then_some((id, *other.id)));
+            self.shoving.extend(other.shoves(player).then_some((*other.id, id)));
+        }
     }
 
     pub fn observation(&self) -> Observation<'_> {
