@@ -92,6 +92,40 @@ impl ColourBox {
         let within = |(least, most): (u8, u8), value: u8| (least..=most).contains(&value);
         within(self.y, pixel.y) && within(self.u, pixel.u) && within(self.v, pixel.v)
     }
+
+    /// What is within a margin of a pixel in each channel.
+    pub fn around(pixel: Yuv, margin: u8) -> ColourBox {
+        let of = |value: u8| (value, value);
+        ColourBox { y: of(pixel.y), u: of(pixel.u), v: of(pixel.v) }.widened(margin)
+    }
+
+    /// By a margin to both sides of each channel.
+    pub fn widened(self, margin: u8) -> ColourBox {
+        let wider = |(least, most): (u8, u8)| (least.saturating_sub(margin), most.saturating_add(margin));
+        ColourBox { y: wider(self.y), u: wider(self.u), v: wider(self.v) }
+    }
+
+    /// The smallest box that holds both.
+    pub fn joined(self, other: ColourBox) -> ColourBox {
+        let both = |a: (u8, u8), b: (u8, u8)| (a.0.min(b.0), a.1.max(b.1));
+        ColourBox { y: both(self.y, other.y), u: both(self.u, other.u), v: both(self.v, other.v) }
+    }
+
+    /// Without a pixel that it holds and what is beyond it on the nearest side; nothing, if nothing is left.
+    pub fn without(self, pixel: Yuv) -> Option<ColourBox> {
+        let (mut rest, channel_values) = (self, [pixel.y, pixel.u, pixel.v]);
+        let channels = [&mut rest.y, &mut rest.u, &mut rest.v];
+        let (channel, value) = channels
+            .into_iter()
+            .zip(channel_values)
+            .min_by_key(|(channel, value)| (value - channel.0).min(channel.1 - value))?;
+        if value - channel.0 < channel.1 - value {
+            channel.0 = value + 1;
+        } else {
+            channel.1 = value.checked_sub(1).filter(|most| *most >= channel.0)?;
+        }
+        Some(rest)
+    }
 }
 
 /// Thresholds for each class that a robot knows, as CMVision has them: a class that is missing is never seen.
