@@ -17,8 +17,9 @@ use crate::world::referee::{Calls, Decision, MatchState, Phase, RuleBook, judge,
 use crate::world::sense::told_place;
 
 pub(super) fn plugin(app: &mut App) {
-    let hands = (place_ball, place_robots, tell_robots).chain();
-    app.add_systems(Tick, hands.after(judge).in_set(TickSystems::Referee));
+    let are_called = |calls: Res<Calls>| !calls.0.is_empty();
+    let carry = (place_ball, place_robots).chain().run_if(are_called);
+    app.add_systems(Tick, (carry, tell_robots).chain().after(judge).in_set(TickSystems::Referee));
 }
 
 fn place_ball(

@@ -19,9 +19,18 @@ use crate::world::impulses::ContactImpulses;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
-    let systems =
-        (let_slip, decide_handling, grant_one_catch, strike_ball, hold_ball).chain().after(push_bodies);
+    let systems = (let_slip, decide_handling, grant_one_catch, strike_ball, hold_ball).chain();
+    let systems = systems.run_if(somebody_handles).after(push_bodies);
     app.add_systems(Tick, systems.in_set(TickSystems::Drive));
+}
+
+/// Whether the body of any robot can catch or kick.
+fn somebody_handles(robots: Query<&Robot>) -> bool {
+    robots.iter().any(can_handle)
+}
+
+fn can_handle(robot: &Robot) -> bool {
+    robot.kind.chin.is_some() || !robot.kind.kicks.is_empty()
 }
 
 type Handler<'a> =
@@ -59,7 +68,7 @@ fn decide_handling(
 ) {
     let (ball, ball_pose) = *ball;
     for ((&id, robot, body, pose, mut handling, footing), intent, pilot, orders) in &mut robots {
-        if robot.kind.chin.is_none() && robot.kind.kicks.is_empty() {
+        if !can_handle(robot) {
             continue;
         }
         let handling = &mut *handling;
@@ -103,16 +112,15 @@ fn grant_one_catch(
     mut robots: Query<(&RobotId, &Robot, &Pose, &mut Handling)>,
     mut events: ResMut<BodyEvents>,
 ) {
-    let mut claims: SmallVec<[_; 4]> = (robots.iter_mut())
-        .filter_map(|(&id, robot, pose, handling)| {
-            let (Grip::Holding { since }, Some(chin)) = (handling.grip, robot.kind.chin) else { return None };
-            let claim = Catch { since, off: pose.to_local(ball.position).distance(chin.pocket()), lot: 0.0 };
-            if since == clock.tick {
-                events.0.push((id, BodyEvent::BallCaught));
-            }
-            Some((claim, chin.time, handling))
-        })
-        .collect();
+    let mut claims: SmallVec<[_; 4]> = SmallVec::new();
+    for (&id, robot, pose, handling) in &mut robots {
+        let (Grip::Holding { since }, Some(chin)) = (handling.grip, robot.kind.chin) else { continue };
+        let claim = Catch { since, off: pose.to_local(ball.position).distance(chin.pocket()), lot: 0.0 };
+        if since == clock.tick {
+            events.0.push((id, BodyEvent::BallCaught));
+        }
+        claims.push((claim, chin.time, handling));
+    }
     if claims.len() < 2 {
         return;
     }

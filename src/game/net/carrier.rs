@@ -27,11 +27,15 @@ pub(super) fn plugin(app: &mut App) {
     let receives = deliver.in_set(TickSystems::Deliver).before(TcmSystems::Receive);
     let sends = transmit.in_set(TickSystems::Transmit).after(TcmSystems::Send);
     let asks = ask_for_due.in_set(DoorSystems::Ask);
-    app.configure_sets(Tick, RadioSystems.run_if(not(is_used)))
-        .add_systems(Tick, asks.run_if(is_used))
-        .add_systems(Tick, receives.after(deliver_datagrams).run_if(is_used))
-        .add_systems(Tick, sends.after(transmit_datagrams).run_if(is_used));
+    app.configure_sets(Tick, (RadioSystems.run_if(not(is_used)), CarrierSystems.run_if(is_used)))
+        .add_systems(Tick, asks.in_set(CarrierSystems))
+        .add_systems(Tick, receives.after(deliver_datagrams).in_set(CarrierSystems))
+        .add_systems(Tick, sends.after(transmit_datagrams).in_set(CarrierSystems));
 }
+
+/// What UDP does in a tick, where it carries the datagrams.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct CarrierSystems;
 
 /// The sockets of the robots that this process runs. A match that is played from its recorded requests has none.
 #[derive(Resource, Default)]

@@ -49,7 +49,7 @@ use timing::unused_number;
 pub(super) fn plugin(app: &mut App) {
     app.add_plugins((carrier::plugin, league::plugin, remote_messages::plugin)).add_systems(
         Tick,
-        (exchange.run_if(resource_exists::<Sockets>), carrier::receive.run_if(resource_exists::<UdpCarrier>))
+        (exchange.run_if(resource_exists::<Sockets>), carrier::receive.in_set(carrier::CarrierSystems))
             .chain()
             .before(carrier::ask_for_due)
             .in_set(DoorSystems::Ask),
@@ -138,7 +138,9 @@ fn open_all(world: &mut World, plan: &MatchPlan) -> Result<(), NetworkError> {
     if let Some(host) = wanted.league_ports {
         world.insert_resource(LeaguePorts::open(host, numbers)?);
     }
-    world.insert_resource(sockets);
+    if sockets.referee_box.is_some() || sockets.announcer.is_some() || sockets.remote.is_some() {
+        world.insert_resource(sockets);
+    }
     Ok(())
 }
 

@@ -51,7 +51,11 @@ use crate::world::physics::Overlaps;
 use crate::world::referee::{Calls, Decision, MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
-    let systems = (digest::digest, measure, watch_bookings, watch_overlaps, move_clock).chain();
+    let is_booked = |strategies: Res<Strategies>| {
+        Team::BOTH.iter().any(|team| strategies.of(*team).teamwork.ball_booking.is_some())
+    };
+    let bookings = watch_bookings.run_if(is_booked);
+    let systems = (digest::digest, measure, bookings, watch_overlaps, move_clock).chain();
     app.match_resource::<Record>();
     app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
