@@ -21,6 +21,7 @@ pub mod udp;
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use smallvec::SmallVec;
 
 pub use budget::{MessageBudgets, Spent};
 pub use client::TcmClient;
@@ -173,7 +174,9 @@ fn send_messages(
     if robots.iter().all(|(_, _, client, _)| client.queues.is_empty()) {
         return;
     }
-    for (id, robot, mut client, mut tcm) in robots.iter_mut().sort::<&RobotId>() {
+    let mut in_order: SmallVec<[_; 8]> = robots.iter_mut().collect();
+    in_order.sort_unstable_by_key(|(id, ..)| **id);
+    for (id, robot, mut client, mut tcm) in in_order {
         // What a mute robot says never goes on air, and costs nothing.
         let mute = robot.is_some_and(|robot| robot.health.mute);
         let mut budgets = budgets.as_deref_mut().filter(|_| !mute);

@@ -12,6 +12,7 @@ use bevy::ecs::query::QueryData;
 use bevy::math::ops;
 use bevy::prelude::*;
 use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
+use smallvec::SmallVec;
 
 pub use differential::steer;
 pub use walker::{GaitError, Trunk, push_legs, stride};
@@ -135,9 +136,9 @@ pub(crate) struct Pushed {
 
 /// In the order of registration, since Rapier remembers the order in which bodies are touched.
 pub(crate) fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, mut robots: Query<Pushed>) {
-    for mut pushed in
-        robots.iter_mut().sort_by_key::<&RobotBodies, _>(|bodies| bodies.unit.0.into_raw_parts())
-    {
+    let mut in_order: SmallVec<[_; 8]> = robots.iter_mut().collect();
+    in_order.sort_unstable_by_key(|pushed| pushed.handles.unit.0.into_raw_parts());
+    for mut pushed in in_order {
         match (&pushed.robot.kind.drive, *pushed.command) {
             (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
                 pushed.roll(speeds, drive, &mut bodies, &clock);
