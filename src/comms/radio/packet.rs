@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::comms::tcm::fragments::Header;
 use crate::comms::tcm::{DataType, Datagram};
 use crate::ids::RobotId;
 
@@ -20,10 +19,9 @@ pub struct Packet {
 }
 
 impl Packet {
-    /// The packet that a datagram is; `None` if it is for a computer, or none of the TCM.
+    /// The packet that a datagram is; `None` if it is for a computer.
     pub fn of(datagram: &Datagram) -> Option<Packet> {
-        let (header, _) = Header::read(&datagram.bytes).ok()?;
         let (from, to) = (datagram.from, datagram.to.robot()?);
-        Some(Packet { kind: header.data_type, from, to, bytes: datagram.bytes.clone() })
+        Some(Packet { kind: datagram.kind, from, to, bytes: datagram.bytes.clone() })
     }
 }

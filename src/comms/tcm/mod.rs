@@ -81,6 +81,8 @@ pub struct Datagram {
     pub from: RobotId,
     /// The receiver, perhaps a group.
     pub to: Peer,
+    /// What the message is about of which it brings a piece.
+    pub kind: DataType,
     /// The datagram itself.
     pub bytes: Arc<[u8]>,
 }
@@ -219,7 +221,7 @@ impl Tcm {
         for piece in pieces {
             let bytes: Arc<[u8]> = piece.into();
             for to in directory.receivers(to, source.peer) {
-                on_air.0.push(Datagram { from, to, bytes: bytes.clone() });
+                on_air.0.push(Datagram { from, to, kind: data_type, bytes: bytes.clone() });
                 datagrams += 1;
             }
         }

@@ -180,6 +180,9 @@ impl Assembly {
     /// Gives up the messages whose time is over, and forgets those that were over for as long. Returns how many were
     /// given up.
     pub fn expire(&mut self, now: u64) -> usize {
+        if self.open.is_empty() && self.over.is_empty() {
+            return 0;
+        }
         let timeout = self.limits.timeout;
         self.over.retain(|_, over| !over.is_forgotten(now, timeout));
         let stale = |(&key, open): (&Key, &Partial)| open.is_stale(now, timeout).then_some(key);
