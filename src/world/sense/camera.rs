@@ -5,6 +5,7 @@ use std::f32::consts::PI;
 
 use bevy::math::ops;
 use bevy::prelude::*;
+use smallvec::SmallVec;
 
 use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::rng::Dice;
@@ -29,14 +30,17 @@ impl Blob {
 }
 
 /// The share of a blob that lies in the field of view (degrees) and behind no nearer blob, from 0 to 1, in fifths.
-pub fn visible_share(blob: Blob, others: impl Iterator<Item = Blob> + Clone, field_of_view: f32) -> f32 {
+pub fn visible_share(blob: Blob, others: impl Iterator<Item = Blob>, field_of_view: f32) -> f32 {
     const RAYS: [f32; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
     let half_view = field_of_view.to_radians() / 2.0;
-    let hidden = |ray: f32| {
-        others
-            .clone()
-            .any(|other| other.range < blob.range && wrap_angle(ray - other.bearing).abs() < other.half_angle)
-    };
+    let mut nearer = SmallVec::<[Blob; 16]>::new();
+    for other in others {
+        if other.range < blob.range {
+            nearer.push(other);
+        }
+    }
+    let hidden =
+        |ray: f32| nearer.iter().any(|other| wrap_angle(ray - other.bearing).abs() < other.half_angle);
     let seen = RAYS.iter().filter(|offset| {
         let ray = wrap_angle(blob.bearing + *offset * blob.half_angle);
         ray.abs() <= half_view && !hidden(ray)
@@ -61,7 +65,7 @@ pub fn look(
     camera: &Camera,
     blob: Blob,
     reach: f32,
-    others: impl Iterator<Item = Blob> + Clone,
+    others: impl Iterator<Item = Blob>,
     dice: &mut Dice,
 ) -> Option<Sighting> {
     let chance = detection(camera, blob.range, reach);

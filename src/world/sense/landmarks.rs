@@ -1,6 +1,8 @@
 //! Which landmarks a camera has in view, and how good a fix they give: goal posts, beacons and lines. Pure.
 
+use bevy::math::ops;
 use bevy::prelude::*;
+use smallvec::SmallVec;
 
 use super::camera::Blob;
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
@@ -34,26 +36,40 @@ pub fn fix_share(landmarks: &Landmarks, pitch: &Pitch, view: &View) -> f32 {
     (of_high + of_lines).min(1.0)
 }
 
-/// The number of goal posts and beacons in view.
+/// The number of goal posts and beacons in view, as far as it matters.
 fn high_landmarks(landmarks: &Landmarks, pitch: &Pitch, view: &View) -> usize {
     let goal = Vec2::new(pitch.length / 2.0, pitch.goal.width / 2.0);
     let posts = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(x, y)| goal * Vec2::new(x, y));
     let posts = posts.into_iter().map(|post| (post, landmarks.posts));
     let beacons = pitch.beacons.iter().map(|beacon| (*beacon, landmarks.beacons));
     let half_view = view.field_of_view.to_radians() / 2.0;
+    let (forward, edge) = (view.from.forward(), ops::cos(half_view) - ROUNDING);
     let is_seen = |(at, reach): &(Vec2, f32)| {
-        let Sighting { range, bearing } = Sighting::of(*at, view.from);
-        range <= *reach && bearing.abs() <= half_view
+        let offset = *at - view.from.position;
+        let range = offset.length();
+        // Most are out of range or behind; of the others alone the bearing is worked out.
+        range <= *reach
+            && offset.dot(forward) >= range * edge
+            && Sighting::of(*at, view.from).bearing.abs() <= half_view
     };
-    posts.chain(beacons).filter(is_seen).count()
+    posts.chain(beacons).filter(is_seen).take(ENOUGH).count()
 }
+
+/// More landmarks than this give no better fix.
+const ENOUGH: usize = 2;
+/// By which cosines and lengths, m, may miss their true values.
+const ROUNDING: f32 = 1e-3;
 
 /// Directions in which lines are looked for, in shares of half the field of view.
 const RAYS: [f32; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
 
 fn sees_a_line(landmarks: &Landmarks, pitch: &Pitch, view: &View) -> bool {
     let half_view = view.field_of_view.to_radians() / 2.0;
-    let lines = pitch.lines();
+    let lines: SmallVec<[_; 11]> = pitch
+        .lines()
+        .into_iter()
+        .filter(|line| is_within(landmarks.lines, *line, view.from.position))
+        .collect();
     RAYS.iter().any(|ray| {
         let bearing = ray * half_view;
         let way = unit(view.from.heading + bearing) * landmarks.lines;
@@ -65,6 +81,11 @@ fn sees_a_line(landmarks: &Landmarks, pitch: &Pitch, view: &View) -> bool {
             .iter()
             .any(|robot| robot.range < range && wrap_angle(bearing - robot.bearing).abs() < robot.half_angle)
     })
+}
+
+/// Whether a line along or across the pitch comes this near to a place, m.
+fn is_within(reach: f32, (start, end): (Vec2, Vec2), place: Vec2) -> bool {
+    place.clamp(start.min(end), start.max(end)).distance(place) <= reach + ROUNDING
 }
 
 /// The share of a way, 0 to 1, after which it crosses a line, if it does.

@@ -20,6 +20,7 @@ mod tests;
 use std::collections::VecDeque;
 
 use bevy::prelude::*;
+use smallvec::SmallVec;
 
 use camera::{Blob, look};
 use landmarks::{View, fix_share};
@@ -211,16 +212,18 @@ impl Surroundings {
         own: RobotId,
         gaze: CameraPose,
         dice: &mut Dice,
-    ) -> (Frame, Vec<Blob>) {
+    ) -> (Frame, SmallVec<[Blob; 8]>) {
         let pose = Pose { heading: gaze.from.heading + gaze.pan, ..gaze.from };
         let from_body =
             |sighting: Sighting| Sighting { bearing: wrap_angle(sighting.bearing + gaze.pan), ..sighting };
-        let others = self.robots.iter().filter(|(id, ..)| *id != own);
-        let units: Vec<(RobotId, Blob)> =
-            others.map(|(id, at, radius)| (*id, Blob::of(*at, *radius, pose))).collect();
-        let trailers: Vec<(RobotId, Blob)> = (self.trailers.iter().filter(|(id, ..)| *id != own))
-            .map(|(id, at, radius)| (*id, Blob::of(*at, *radius, pose)))
-            .collect();
+        let others = |bodies: &[(RobotId, Vec2, f32)]| {
+            let mut others = SmallVec::<[(RobotId, Blob); 8]>::new();
+            for (id, at, radius) in bodies.iter().filter(|(id, ..)| *id != own) {
+                others.push((*id, Blob::of(*at, *radius, pose)));
+            }
+            others
+        };
+        let (units, trailers) = (others(&self.robots), others(&self.trailers));
         let solid = || units.iter().chain(&trailers);
         let ball = Blob::of(self.ball, self.ball_radius, pose);
         let mut seen = look(camera, ball, camera.ball_range, solid().map(|(_, blob)| *blob), dice);

@@ -42,11 +42,12 @@ pub(super) fn read_odometry(clock: Res<Clock>, mut robots: Query<Reckoned, Witho
 
 /// How a robot moves, as far as wheels or legs could feel it. Wheels do not feel that they slide sideways.
 fn felt(kind: &RobotKind, pose: &Pose, twist: &Twist) -> Motion {
+    let forward = pose.forward();
     let aside = match kind.drive {
         Drive::Differential(_) => 0.0,
-        Drive::Walker(_) => twist.linear.dot(pose.forward().perp()),
+        Drive::Walker(_) => twist.linear.dot(forward.perp()),
     };
-    (Vec2::new(twist.linear.dot(pose.forward()), aside), twist.angular)
+    (Vec2::new(twist.linear.dot(forward), aside), twist.angular)
 }
 
 /// The motion that motors report: legs step as they are told, whatever comes of it. A wheel that is blocked stalls and its
