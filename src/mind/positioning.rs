@@ -125,7 +125,8 @@ impl FieldView<'_> {
             let others = self.busy.iter().chain(self.opponents).chain(taken);
             nearest(*at, others).unwrap_or(self.pitch.length) - BALL_SIDE * at.distance(self.ball)
         };
-        points.filter(is_free).max_by(|a, b| worth(a).total_cmp(&worth(b))).unwrap_or(Vec2::ZERO)
+        let rated = points.filter(is_free).map(|at| (worth(&at), at));
+        rated.max_by(|(a, _), (b, _)| a.total_cmp(b)).map_or(Vec2::ZERO, |(_, at)| at)
     }
 }
 

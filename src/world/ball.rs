@@ -112,22 +112,24 @@ fn hold_ball_in_scoops(
     robots: Query<(&RobotId, &Robot, &RapierRigidBodyHandle, &Pose)>,
 ) {
     let (ball_handle, ball_pose) = *ball;
-    let mut pulls: SmallVec<[_; 4]> = (robots.iter())
-        .filter(|(.., pose)| pose.position.distance(ball_pose.position) < NEAR)
-        .filter_map(|(id, robot, handle, pose)| {
-            let scoop = robot.kind.scoop.as_ref()?;
-            let offset = pose.to_local(ball_pose.position);
-            let gap = offset.x - robot.kind.body.length / 2.0 - kind.radius;
-            if offset.x < 0.0 || gap > scoop.hold_reach {
-                return None;
-            }
-            let drift =
-                bodies.get(ball_handle)?.linvel() - bodies.get(handle)?.velocity_at_point(ball_pose.position);
-            let local_drift = Vec2::new(drift.dot(pose.forward()), drift.dot(pose.forward().perp()));
-            let force = scoop_hold(scoop, gap, offset.y, local_drift);
-            Some((*id, *handle, pose.forward().rotate(force) * clock.dt))
-        })
-        .collect();
+    let mut pulls: SmallVec<[_; 4]> = SmallVec::new();
+    for (id, robot, handle, pose) in &robots {
+        let Some(scoop) = &robot.kind.scoop else { continue };
+        if pose.position.distance(ball_pose.position) >= NEAR {
+            continue;
+        }
+        let offset = pose.to_local(ball_pose.position);
+        let gap = offset.x - robot.kind.body.length / 2.0 - kind.radius;
+        if offset.x < 0.0 || gap > scoop.hold_reach {
+            continue;
+        }
+        let (Some(ball), Some(unit)) = (bodies.get(ball_handle), bodies.get(handle)) else { continue };
+        let drift = ball.linvel() - unit.velocity_at_point(ball_pose.position);
+        let forward = pose.forward();
+        let local_drift = Vec2::new(drift.dot(forward), drift.dot(forward.perp()));
+        let force = scoop_hold(scoop, gap, offset.y, local_drift);
+        pulls.push((*id, *handle, forward.rotate(force) * clock.dt));
+    }
     // All pulls are known before the first one acts, and they act in an order that does not depend on the query's.
     pulls.sort_unstable_by_key(|(id, ..)| *id);
     for (_, handle, impulse) in pulls {

@@ -31,26 +31,28 @@ pub(super) fn digest(
     radio: Res<RadioRecord>,
     bodies: Query<Digested>,
 ) {
-    let mut sorted: SmallVec<[(u32, [u32; 6]); 24]> = bodies
-        .iter()
-        .map(|(pose, robot, trailer, role, activity, swapping)| {
-            let key = |id: &RobotId| (id.team.index() as u32) << 8 | u32::from(id.number);
-            let order = match (robot, trailer) {
-                (Some(id), _) => key(id),
-                (None, Some(trailer)) => 1 << 16 | key(&trailer.of),
-                (None, None) => 1 << 17,
-            };
-            let place = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
-            let role = role.map_or(0, |role| role.0 as u32);
-            let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
-            let swap = swapping.map_or(0, |swapping| Xxh3DefaultBuilder.hash_one(&swapping.machine) as u32);
-            (order, [place[0], place[1], place[2], role, activity, swap])
-        })
-        .collect();
+    let mut sorted: SmallVec<[(u32, [u8; 24]); 24]> = SmallVec::new();
+    for (pose, robot, trailer, role, activity, swapping) in &bodies {
+        let key = |id: &RobotId| (id.team.index() as u32) << 8 | u32::from(id.number);
+        let order = match (robot, trailer) {
+            (Some(id), _) => key(id),
+            (None, Some(trailer)) => 1 << 16 | key(&trailer.of),
+            (None, None) => 1 << 17,
+        };
+        let role = role.map_or(0, |role| role.0 as u32);
+        let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
+        let swap = swapping.map_or(0, |swapping| Xxh3DefaultBuilder.hash_one(&swapping.machine) as u32);
+        let place = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
+        let mut bytes = [0; 24];
+        for (at, word) in [place[0], place[1], place[2], role, activity, swap].into_iter().enumerate() {
+            bytes[4 * at..4 * at + 4].copy_from_slice(&word.to_le_bytes());
+        }
+        sorted.push((order, bytes));
+    }
     sorted.sort_unstable_by_key(|(order, _)| *order);
     let mut bytes: SmallVec<[u8; 512]> = SmallVec::new();
-    for (_, words) in &sorted {
-        words.iter().for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
+    for (_, of_body) in &sorted {
+        bytes.extend_from_slice(of_body);
     }
     bytes.extend_from_slice(&state.score[0].to_le_bytes());
     bytes.extend_from_slice(&state.score[1].to_le_bytes());

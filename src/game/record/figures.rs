@@ -91,9 +91,11 @@ impl Record {
         for team in Team::BOTH {
             let i = team.index();
             self.pursuit[i].update(team, tick);
-            self.kicks[i].update(team, &tick.events);
-            self.grips[i].update(team, &tick.events);
-            self.falls[i] += count_falls(team, &tick.events);
+            if !tick.events.is_empty() {
+                self.kicks[i].update(team, &tick.events);
+                self.grips[i].update(team, &tick.events);
+                self.falls[i] += count_falls(team, &tick.events);
+            }
             let playing = || tick.of(team).filter(|player| player.plays);
             self.roles[i].update(playing().map(|it| (it.id.number, it.role)), tick.now, tick.dt);
             self.states[i].update(playing().map(|it| (it.id.number, it.state)), tick.now, tick.dt);

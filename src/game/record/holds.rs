@@ -66,17 +66,17 @@ impl<T: Copy + PartialEq> HoldFigures<T> {
                 self.holders.resize(place + 1, None);
             }
             self.seconds += dt;
-            match self.holders[place].filter(|holder| now - holder.seen < 1.5 * dt) {
-                Some(holder) if holder.has == has => {}
-                Some(holder) => self.holders[place] = Some(self.change(holder, has, now)),
+            match self.holders[place].as_mut().filter(|holder| now - holder.seen < 1.5 * dt) {
+                Some(holder) if holder.has == has => holder.seen = now,
+                Some(holder) => {
+                    let before = *holder;
+                    self.holders[place] = Some(self.change(before, has, now));
+                }
                 None => {
                     self.begun += 1;
                     self.holders[place] =
                         Some(Holder { has, since: now, seen: now, changed: false, before: None });
                 }
-            }
-            if let Some(holder) = &mut self.holders[place] {
-                holder.seen = now;
             }
         }
         self.mean = if self.begun > 0 { self.seconds / self.begun as f64 } else { 0.0 };
@@ -91,7 +91,7 @@ impl<T: Copy + PartialEq> HoldFigures<T> {
         self.oscillations += u64::from(is_back);
         self.changes += 1;
         self.begun += 1;
-        Holder { has, since: now, changed: true, before: Some(holder.has), ..holder }
+        Holder { has, since: now, seen: now, changed: true, before: Some(holder.has) }
     }
 
     /// Play is interrupted: a change after it is no way back.

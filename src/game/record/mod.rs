@@ -30,7 +30,7 @@ pub use holds::{BACK_WITHIN, HoldFigures};
 pub use kicks::{GripFigures, KickFigures};
 pub use loose_balls::{LOOSE_AFTER, LooseBalls, WON_AFTER};
 pub use overlap::{BallOverlap, TOLERANCE};
-use play_tick::{PlayTick, PlayView};
+use play_tick::PlayView;
 pub use pursuit::{FARTHER, PING_PONG, Pursuit};
 pub use removals::Removals;
 pub use span::Span;
@@ -69,12 +69,9 @@ fn measure(
     if state.phase != Phase::Playing {
         return record.interrupt();
     }
-    let tick = PlayTick {
-        now: record.played,
-        dt: f64::from(clock.dt),
-        ball_is_put: calls.0.iter().any(|call| matches!(call, Decision::BallPlaced { .. })),
-        ..view.tick()
-    };
+    let mut tick = view.tick();
+    (tick.now, tick.dt) = (record.played, f64::from(clock.dt));
+    tick.ball_is_put = calls.0.iter().any(|call| matches!(call, Decision::BallPlaced { .. }));
     record.update(&tick);
 }
 

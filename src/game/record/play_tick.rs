@@ -114,21 +114,21 @@ impl PlayView<'_, '_> {
     /// What there is to see, but for the time.
     pub fn tick(&self) -> PlayTick {
         let (ball, motion) = *self.ball;
-        let players: SmallVec<[PlayerTick; 8]> =
-            self.players.iter().map(|player| player.tick(ball.position)).collect();
-        let plays = |robot: RobotId| players.iter().any(|player| player.id == robot);
-        let touching = self.contacts.robots.iter().map(|(a, b, _)| [*a, *b]);
-        let mut touching: SmallVec<_> = touching.filter(|[a, b]| plays(*a) && plays(*b)).collect();
-        touching.sort_unstable();
-        PlayTick {
-            ball: ball.position,
-            ball_velocity: motion.linear,
-            touching,
-            at_ball: self.contacts.ball.iter().map(|(robot, _)| *robot).collect(),
-            events: self.events.0.as_slice().into(),
-            players,
-            ..PlayTick::default()
+        let mut tick = PlayTick { ball: ball.position, ball_velocity: motion.linear, ..PlayTick::default() };
+        for player in &self.players {
+            tick.players.push(player.tick(ball.position));
         }
+        let plays = |robot: RobotId| tick.players.iter().any(|player| player.id == robot);
+        for (a, b, _) in &self.contacts.robots {
+            if plays(*a) && plays(*b) {
+                tick.touching.push([*a, *b]);
+            }
+        }
+        for (robot, _) in &self.contacts.ball {
+            tick.at_ball.push(*robot);
+        }
+        tick.events.extend_from_slice(&self.events.0);
+        tick
     }
 }
 

@@ -79,8 +79,10 @@ impl SeenRobotItem<'_, '_> {
 impl Sight {
     /// Places alone: all that the rules of walled pitches ask for.
     fn of_places(ball: Vec2, players: &Players) -> Sight {
-        let mut robots: SmallVec<[(RobotId, Vec2); 8]> =
-            players.iter().map(|player| (*player.id, player.pose.position)).collect();
+        let mut robots: SmallVec<[(RobotId, Vec2); 8]> = SmallVec::new();
+        for player in players {
+            robots.push((*player.id, player.pose.position));
+        }
         robots.sort_unstable_by_key(|(id, _)| *id);
         Sight { ball, robots, ..Sight::default() }
     }

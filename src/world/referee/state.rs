@@ -235,7 +235,7 @@ impl MatchState {
 
     /// Whether a robot is off the field.
     pub fn is_removed(&self, robot: RobotId) -> bool {
-        self.removed.binary_search_by_key(&robot, |removal| removal.robot).is_ok()
+        !self.removed.is_empty() && self.removed.binary_search_by_key(&robot, |removal| removal.robot).is_ok()
     }
 
     /// Takes a robot off the field for some seconds of playing time, forgets what it was about to be taken off for, and

@@ -53,7 +53,8 @@ struct KeeperContact {
 /// All such contacts, by attacker.
 fn contacts(laws: &Laws, observation: &Observation, state: &MatchState) -> Vec<KeeperContact> {
     let mut contacts = Vec::new();
-    if laws.book.pushing.and_then(|rule| rule.goalie).is_none() {
+    let nobody_touches = observation.contacts.is_empty() && observation.touching.is_empty();
+    if nobody_touches || laws.book.pushing.and_then(|rule| rule.goalie).is_none() {
         return contacts;
     }
     for (attacker, _) in observation.on_field(state) {
