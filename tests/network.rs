@@ -1,6 +1,7 @@
 //! Matches that cross a network: team messages over real sockets, robots in other processes, referee boxes.
 
 mod announced;
+mod chaos;
 mod greeting;
 mod league;
 mod processes;
@@ -80,6 +81,9 @@ fn open(plan: &MatchPlan) -> (Match, MatchPlan) {
         plan.addresses = Some(free_directory(&plan));
         if let Some(address) = &mut plan.network.gamecontroller {
             *address = free_addresses(1)[0];
+        }
+        if let Some(chaos) = &mut plan.network.chaos {
+            chaos.at = free_addresses(3)[0];
         }
         let mut game = Match::new(&plan);
         match net::open(game.world_mut(), &plan) {

@@ -1,8 +1,12 @@
 //! What must hold of the TCM whatever arrives. The fuzz targets call it with new inputs, the tests with those in the corpus.
 #![allow(dead_code, reason = "each fuzz target calls one of these")]
 
+use std::fmt::Debug;
+
+use touchline::comms::tcm::Data;
 use touchline::comms::tcm::external_message::{Address, DataType, ExternalMessage, Module, Peer};
 use touchline::comms::tcm::fragments::{Assembly, HEADER, Header, Limits, cut};
+use touchline::game::net::chaos::{CameraData, ChaosOrder, DebugData, ImageData, OrderAnswer};
 
 const LIMITS: Limits = Limits { messages: 4, bytes: 16_000, message_bytes: 4_000, timeout: 8 };
 
@@ -107,6 +111,28 @@ pub fn external_message(input: &[u8]) {
         arrived.extend(assembly.accept(0, datagram).unwrap());
     }
     assert_eq!(arrived, [message]);
+}
+
+/// Takes an input for what ChaosManager and robots say to each other: a byte for the type, then the data.
+pub fn chaos_data(input: &[u8]) {
+    let Some((data_type, bytes)) = input.split_first() else { return };
+    let data_type = DataType((*data_type).into());
+    if let Some(image) = comes_back::<ImageData>(data_type, bytes) {
+        let picture = image.image();
+        assert_eq!(picture.pixels.len(), picture.width * picture.height);
+    }
+    comes_back::<CameraData>(data_type, bytes);
+    comes_back::<DebugData>(data_type, bytes);
+    comes_back::<OrderAnswer>(data_type, bytes);
+    comes_back::<ChaosOrder>(data_type, bytes);
+}
+
+/// The data in these bytes, which are the same after they have been written and read again.
+fn comes_back<T: Data + PartialEq + Debug>(data_type: DataType, bytes: &[u8]) -> Option<T> {
+    let data = T::unserialise(data_type, bytes)?;
+    let (known, written) = data.serialise();
+    assert_eq!((known.number, T::unserialise(data_type, &written).as_ref()), (data_type, Some(&data)));
+    Some(data)
 }
 
 /// A message that has arrived can be sent on in datagrams of another size.

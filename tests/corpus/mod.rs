@@ -35,6 +35,11 @@ fn messages_of_the_tcm_arrive_as_they_were_sent() {
 }
 
 #[test]
+fn what_chaos_manager_and_robots_say_comes_back_as_it_was() {
+    replay("chaos_data", tcm::chaos_data);
+}
+
+#[test]
 fn control_packets_are_read_as_they_are_written() {
     replay("gamecontroller_control", gamecontroller::control);
 }

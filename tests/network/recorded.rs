@@ -17,13 +17,13 @@ use super::{HOME_0, HOME_1, address_of, datagram, greet, stranger, talkative};
 const AWAY_2: RobotId = RobotId::new(Team::Away, 2);
 
 /// The match without sockets, with these requests.
-fn again(plan: &MatchPlan, requests: &[(u64, Request)], ticks: u64) -> Match {
+pub(super) fn again(plan: &MatchPlan, requests: &[(u64, Request)], ticks: u64) -> Match {
     let mut game = Match::new(&MatchPlan { script: requests.to_vec(), ..plan.clone() });
     (0..ticks).for_each(|_| game.tick());
     game
 }
 
-fn log_of(game: &Match) -> RequestLog {
+pub(super) fn log_of(game: &Match) -> RequestLog {
     game.world().resource::<RequestLog>().clone()
 }
 
