@@ -122,13 +122,14 @@ CONFIGURATION = {"epoch": U32, "initiator": U8, "roles": [U8]}
 BYTES, BOOL = lambda data: take(data, u32(data)), (False, True)
 STRING, POSE, GAZE = lambda data: BYTES(data).decode(), {**VEC2, "heading": F32}, {"pan": F32, "tilt": F32}
 STEERING = ("stop", {"heading": F32, "facing": F32, "speed": F32}, {"turn": F32})
+PIXELS = {"hits": U32, "missed": U32, "false_alarms": U32}
 COLOURS = ("orange", "yellow", "sky blue", "pink", "red", "dark blue", "white", "green")
 DEBUG = {
     **{"number": U32, "tick": U32, "pose": POSE, "is_localised": BOOL},
     "ball": (None, {"position": VEC2, "velocity": VEC2, "age": F32}),
     **{"role": STRING, "acting_as": STRING, "states": [STRING], "steering": STEERING},
     **{"kick": ("nothing", "hold", U32), "head": {"pan": F32, "speed": F32}, "is_driven": BOOL},
-    "colours": [{"class": COLOURS, "recall": F32, "precision": F32}],
+    "quality": (None, {**{colour: PIXELS for colour in COLOURS}, "pictures": U32}),
 }
 TYPES = {
     1: ("position", {**HEAD, "position": VEC2, "heading": VEC2, "configuration": (None, CONFIGURATION)}),

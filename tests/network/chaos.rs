@@ -20,11 +20,10 @@ use touchline::rng::{Dice, Seed};
 use touchline::robot::pilot::Pilot;
 use touchline::strategy::Strategies;
 use touchline::vision::{CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Optics};
-use touchline::world::referee::Phase;
 
 use super::recorded::{again, log_of};
 use super::{HOME_0, HOME_1, open, stranger, talkative};
-use crate::support::{digest_of, robot, strategy_text};
+use crate::support::{digest_of, strategy_text};
 
 /// A match that ChaosManager may speak to from these addresses.
 fn open_to(plan: MatchPlan, from: &[IpAddr]) -> (Match, MatchPlan) {
@@ -196,41 +195,6 @@ fn a_robot_tells_what_it_believes_is_in_and_wants_until_nobody_asks_any_more() {
         game.tick();
     }
     assert_eq!(game.record().digest, digest_of(&by_radio), "who looks changes nothing");
-}
-
-#[test]
-fn a_robot_is_driven_stops_when_the_link_breaks_and_goes_back_to_its_strategy() {
-    let (mut game, plan) = open_to(talkative(1.0), &[]);
-    game.world_mut().insert_resource(RequestLog::default());
-    let mut manager = Manager::of(&plan, HOME_1, 0.1);
-    manager.talk.subscribe(Subscription { images_hz: 0.0, data_hz: 10.0 });
-    while game.state().phase != Phase::Playing {
-        manager.tick(&mut game);
-    }
-    let spin = Pilot { turn: 1.0, ..Pilot::default() };
-    manager.talk.steer(Some(spin), Duration::from_secs_f64(game.clock().now()));
-    let news = manager.ticks(&mut game, 240);
-    assert!(debug_data(&news).iter().any(|data| data.is_driven));
-    assert!(robot(&mut game, Team::Home, 1).1.angular.abs() > 0.5, "it turns");
-    // Whoever else wants to drive it is refused.
-    let mut other = Manager::of(&plan, HOME_1, 0.0);
-    other.talk.steer(Some(spin), Duration::from_secs_f64(game.clock().now()));
-    let refused = other.ticks(&mut game, 2);
-    assert!(matches!(&refused[..], [ChaosNews::Refused(..)]), "{refused:?}");
-    // The link breaks.
-    (0..90).for_each(|_| game.tick());
-    assert!(robot(&mut game, Team::Home, 1).1.angular.abs() < 0.1, "it stands");
-    (0..300).for_each(|_| game.tick());
-    let RequestLog(requests) = log_of(&game);
-    let kinds: Vec<&Request> = requests.iter().map(|(_, request)| request).collect();
-    assert_eq!(kinds.first(), Some(&&Request::TakeOver(HOME_1)));
-    assert_eq!(kinds.last(), Some(&&Request::HandBack(HOME_1)));
-    let stop = Request::Steer { robot: HOME_1, pilot: Pilot::default() };
-    assert_eq!(kinds.iter().filter(|request| ***request == stop).count(), 1);
-    let ticks = game.clock().tick;
-    assert_eq!(again(&plan, &requests, ticks).record().digest, game.record().digest);
-    let without: Vec<_> = requests.iter().filter(|(_, request)| *request != stop).cloned().collect();
-    assert_ne!(again(&plan, &without, ticks).record().digest, game.record().digest);
 }
 
 /// A camera that somebody has calibrated.

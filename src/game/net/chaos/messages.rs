@@ -12,7 +12,7 @@ use crate::data::Validate;
 use crate::geometry::Pose;
 use crate::robot::pilot::Pilot;
 use crate::robot::{HeadIntent, KickIntent, SteeringIntent};
-use crate::vision::{CameraCalibration, CameraSettings, ColourClass, ColourTable, Gaze, Image, Yuv};
+use crate::vision::{CameraCalibration, CameraSettings, ColourTable, Gaze, Image, Quality, Yuv};
 
 /// A picture as the robot's camera gave it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -67,8 +67,9 @@ pub struct DebugData {
     pub head: HeadIntent,
     /// Whether a person drives it.
     pub is_driven: bool,
-    /// How well it tells colours, class by class, where that is known.
-    pub colours: Vec<ClassScore>,
+    /// How well the colours of its last picture were told, if it sees by pictures. The match knows what they show; the robot does
+    /// not.
+    pub quality: Option<Quality>,
 }
 
 /// A ball that a robot believes in.
@@ -80,17 +81,6 @@ pub struct BallData {
     pub velocity: Vec2,
     /// How long ago it was seen, s.
     pub age: f32,
-}
-
-/// How well a colour class is told, against the truth of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ClassScore {
-    /// The class.
-    pub class: ColourClass,
-    /// The share of the pixels of the class that were taken for it.
-    pub recall: f32,
-    /// The share of the pixels taken for the class that are of it.
-    pub precision: f32,
 }
 
 /// What a computer asks of a robot.
@@ -179,14 +169,12 @@ impl ImageData {
 
 impl DebugData {
     fn is_sound(&self) -> bool {
-        let is_share = |share: f32| (0.0..=1.0).contains(&share);
         self.pose.is_finite()
             && self.ball.is_none_or(|ball| {
                 ball.position.is_finite() && ball.velocity.is_finite() && ball.age.is_finite()
             })
             && self.steering.is_finite()
             && self.head.is_finite()
-            && self.colours.iter().all(|score| is_share(score.recall) && is_share(score.precision))
     }
 }
 

@@ -16,8 +16,8 @@ mod talk;
 
 pub use link::ChaosLink;
 pub use messages::{
-    BallData, CameraData, ChaosOrder, ClassScore, DebugData, ImageData, Instruction, OrderAnswer, Refusal,
-    StrategyText, Subscription,
+    BallData, CameraData, ChaosOrder, DebugData, ImageData, Instruction, OrderAnswer, Refusal, StrategyText,
+    Subscription,
 };
 pub use outbox::OutboxFigures;
 pub use plan::ChaosPlan;

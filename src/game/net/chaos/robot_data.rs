@@ -50,6 +50,6 @@ pub(super) fn debug_data(
         kick: *kick,
         head: *head,
         is_driven,
-        colours: Vec::new(),
+        quality: None,
     }
 }

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::comms::tcm::DataType;
-use crate::vision::{ColourBox, Optics};
+use crate::vision::{ColourBox, ColourClass, Optics};
 
 const OPTICS: Optics =
     Optics { width: 208, height: 160, field_of_view: 56.9, mount: 0.19, tilt: 10.0, nod: 40.0 };
@@ -35,7 +35,7 @@ fn debug_data() -> DebugData {
         kick: KickIntent::Kick(2),
         head: HeadIntent { pan: 0.5, speed: 1.0 },
         is_driven: false,
-        colours: vec![ClassScore { class: ColourClass::Orange, recall: 0.5, precision: 1.0 }],
+        quality: Some(Quality::of(&[Some(ColourClass::Orange), None], &[Some(ColourClass::Green), None])),
     }
 }
 
