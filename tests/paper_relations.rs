@@ -71,7 +71,8 @@ fn the_ball_chasers_drive_at_the_mean_speeds_of_the_hammerheads_and_are_stuck_af
         all.dedup();
         all
     };
-    assert_eq!(patience(&team).len(), 1, "one time for all states: {:?}", patience(&team));
+    assert_eq!(patience(&team).len(), 1, "the same times in all states: {:?}", patience(&team));
+    assert_eq!(patience(&team)[0].len(), 2, "after a bump, and without one");
     assert_eq!(patience(&team), patience(&chasers));
 }
 
@@ -317,11 +318,12 @@ fn forward_waits_on_spots(team: &Strategy) -> Vec<String> {
     off.map(|home| format!("{home} is none")).collect()
 }
 
-/// The times after which a robot takes itself to be stuck, wherever it asks.
-fn stuck_times(team: &Strategy) -> Vec<f32> {
+/// The times after which a robot takes itself to be stuck, for each transition that asks.
+fn stuck_times(team: &Strategy) -> Vec<Vec<f32>> {
     fn of(feature: &Feature, all: &mut Vec<f32>) {
         match feature {
             Feature::Stalled(seconds) => all.push(*seconds),
+            Feature::Lasting { what, seconds, .. } if **what == Feature::Bumped => all.push(*seconds),
             Feature::Not(what)
             | Feature::HoldFor { what, .. }
             | Feature::Lasting { what, .. }
@@ -330,9 +332,12 @@ fn stuck_times(team: &Strategy) -> Vec<f32> {
             _ => {}
         }
     }
-    let mut all = Vec::new();
     let transitions =
         team.machines.iter().flat_map(|machine| &machine.states).flat_map(|state| &state.transitions);
-    transitions.for_each(|transition| of(&transition.when, &mut all));
-    all
+    let times = transitions.map(|transition| {
+        let mut times = Vec::new();
+        of(&transition.when, &mut times);
+        times
+    });
+    times.filter(|times| !times.is_empty()).collect()
 }

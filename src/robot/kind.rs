@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::bump::BumpSensing;
 use super::footing::ContactCost;
 use super::legs::{Chin, Kick, Neck, Strike, Walker};
 use crate::data::{Bound, Fault, Field, Validate, check_all, check_count, ensure};
@@ -26,6 +27,9 @@ pub struct RobotKind {
     /// What touching other robots costs it; nothing, if not given.
     #[serde(default)]
     pub contact: Option<ContactCost>,
+    /// How its drive notices that it is blocked; not at all, if not given. Legs have no wheels whose turns could be measured.
+    #[serde(default)]
+    pub bump: Option<BumpSensing>,
     /// What it pulls.
     #[serde(default)]
     pub trailer: Option<TrailerKind>,
@@ -151,6 +155,9 @@ impl Validate for RobotKind {
             Drive::Walker(walker) => walker.validate_as("drive")?,
         }
         self.contact.validate_as("contact")?;
+        let has_wheels = matches!(self.drive, Drive::Differential(_));
+        ensure(has_wheels || self.bump.is_none(), "bump", || "legs have no wheels to measure".into())?;
+        self.bump.validate_as("bump")?;
         self.trailer.validate_as("trailer")?;
         self.scoop.validate_as("scoop")?;
         self.neck.validate_as("neck")?;

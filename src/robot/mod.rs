@@ -1,5 +1,6 @@
 //! Robots: what they are made of, as data and as components that several stages share.
 
+mod bump;
 mod calibrated_camera;
 mod events;
 mod footing;
@@ -21,6 +22,7 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 use smallvec::SmallVec;
 
+pub use bump::{BumpSensing, BumpSensor};
 pub use calibrated_camera::{CalibratedCamera, CameraSet, ColoursSet};
 pub use events::{Misled, PutDown, RobotStart, StrategyChanged, SwitchedOff, SwitchedOn};
 pub use footing::{ContactCost, Falls, Footing};

@@ -6,6 +6,7 @@ use std::f32::consts::PI;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::bump::BumpSensor;
 use super::sensing::{Camera, Eyes};
 use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::ids::{RobotId, Team};
@@ -44,7 +45,7 @@ pub struct Fix {
     pub share: f32,
 }
 
-/// What wheels or legs report: a dead-reckoned pose in a frame of its own, and whether they move in vain.
+/// What wheels or legs report: a dead-reckoned pose in a frame of its own, what they are told, and whether they are blocked.
 #[derive(Component, Clone, Debug)]
 pub struct Odometry {
     /// Where the robot is by its own wheels or steps since the match began.
@@ -53,8 +54,10 @@ pub struct Odometry {
     pub speed: f32,
     /// rad/s
     pub turn_rate: f32,
-    /// How long wheels or legs have been told to move without moving the robot, s.
-    pub stalled_for: f32,
+    /// The fastest that a wheel or the legs are told to move, m/s.
+    pub told: f32,
+    /// Whether the drive is blocked, as far as it notices.
+    pub bump: BumpSensor,
     /// Distance since the last error was drawn, m.
     pub unjudged: f32,
     /// The dice of its errors.
@@ -68,7 +71,8 @@ impl Odometry {
             pose: Pose::default(),
             speed: 0.0,
             turn_rate: 0.0,
-            stalled_for: 0.0,
+            told: 0.0,
+            bump: BumpSensor::new(seed, robot),
             unjudged: 0.0,
             dice: Dice::new(seed, "odometry", Some(robot)),
         }

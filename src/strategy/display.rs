@@ -31,6 +31,7 @@ impl fmt::Display for Feature {
             Feature::HoldsBall => f.write_str("holds the ball"),
             Feature::GoalieIsOut => f.write_str("the goalie is out"),
             Feature::After(seconds) => write!(f, "after {seconds} s"),
+            Feature::Bumped => f.write_str("has bumped into something"),
             Feature::Stalled(seconds) => write!(f, "stalled for {seconds} s"),
             Feature::HoldFor { what, .. } => write!(f, "lately {what}"),
             Feature::Lasting { what, seconds, .. } => write!(f, "{what} for {seconds} s"),

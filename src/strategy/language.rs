@@ -196,7 +196,9 @@ pub enum Feature {
     HoldsBall,
     /// The goalie has said that it left its area, and not that it is back.
     GoalieIsOut,
-    /// The wheels have turned for this many seconds without moving the robot.
+    /// The robot's drive reports that it is blocked; never without bump sensing.
+    Bumped,
+    /// The robot has been told to move for this many seconds and finds by its wheels and its landmarks that it has not moved.
     Stalled(f32),
     /// The robot has been in its present state for this many seconds.
     After(f32),

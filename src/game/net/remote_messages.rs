@@ -30,8 +30,10 @@ pub struct Sensors {
     pub speed: f32,
     /// rad/s
     pub turn_rate: f32,
-    /// s
-    pub stalled_for: f32,
+    /// What the motors are told, m/s.
+    pub told: f32,
+    /// Whether the drive reports that it is blocked.
+    pub bumped: bool,
     /// rad
     pub pan: f32,
     /// Whether the ball is under its chin.
@@ -78,7 +80,7 @@ impl RobotReply {
 
 impl Sensors {
     fn is_finite(&self) -> bool {
-        let numbers = [self.speed, self.turn_rate, self.stalled_for, self.pan];
+        let numbers = [self.speed, self.turn_rate, self.told, self.pan];
         self.odometry.is_finite() && numbers.into_iter().all(f32::is_finite)
     }
 }

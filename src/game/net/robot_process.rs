@@ -244,7 +244,8 @@ impl RobotProcess {
             odometry.pose = sensors.odometry;
             odometry.speed = sensors.speed;
             odometry.turn_rate = sensors.turn_rate;
-            odometry.stalled_for = sensors.stalled_for;
+            odometry.told = sensors.told;
+            odometry.bump.reports = sensors.bumped;
         }
         if let Some(mut handling) = robot.get_mut::<Handling>() {
             handling.grip =

@@ -21,6 +21,7 @@ pub struct Situation {
     pub now: f32,
     pub ball_age: Option<f32>,
     pub time_in_state: f32,
+    pub bumped: bool,
     pub stalled_for: f32,
 }
 
@@ -41,6 +42,7 @@ impl Situation {
             now: 0.0,
             ball_age: None,
             time_in_state: 0.0,
+            bumped: false,
             stalled_for: 0.0,
         }
     }
@@ -87,6 +89,7 @@ impl Situation {
             ball_age: self.ball_age,
             time_in_state: self.time_in_state,
             holds_ball: false,
+            bumped: self.bumped,
             stalled_for: self.stalled_for,
             front: Situation::FRONT,
             ball_radius: Situation::BALL_RADIUS,

@@ -31,7 +31,7 @@ pub struct DecisionInput {
     pub robot: &'static Robot,
     /// What it believes of the field.
     pub model: &'static WorldModel,
-    /// How far it has moved by its own wheels or steps.
+    /// What its own wheels or legs report.
     pub odometry: &'static Odometry,
     /// What it believes of its team.
     pub team_model: &'static TeamModel,
@@ -63,7 +63,8 @@ pub fn perception<'a>(
         ball_age: input.model.ball.map(|ball| clock.seconds_since(ball.seen)),
         time_in_state: clock.seconds_since(activity.since),
         holds_ball: input.handling.holds(),
-        stalled_for: input.odometry.stalled_for,
+        bumped: input.odometry.bump.reports,
+        stalled_for: input.model.stalled_for(clock),
         front: input.robot.kind.body.length / 2.0,
         ball_radius: ball.radius,
     }

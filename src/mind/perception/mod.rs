@@ -60,7 +60,9 @@ pub struct Perception<'a> {
     pub time_in_state: f32,
     /// Whether the robot's chin holds the ball.
     pub holds_ball: bool,
-    /// Seconds for which the wheels have turned in vain.
+    /// Whether the drive reports that it is blocked.
+    pub bumped: bool,
+    /// Seconds for which it has been told to move and has found itself not to.
     pub stalled_for: f32,
     /// From the robot's centre to its front and the radius of the ball, m.
     pub front: f32,
@@ -245,6 +247,7 @@ impl Perception<'_> {
             Feature::GoalieIsOut => {
                 self.teamwork.has(Mechanism::GoalieSupport) && self.team_model.goalie.is_out
             }
+            Feature::Bumped => self.bumped,
             Feature::Stalled(seconds) => self.stalled_for >= *seconds,
             Feature::After(seconds) => self.time_in_state >= *seconds,
             Feature::HoldFor { what, seconds, slot } => {

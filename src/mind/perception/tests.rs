@@ -4,8 +4,8 @@ use super::*;
 use crate::ids::Team::{Away, Home};
 use crate::mind::perception::fixture::Situation;
 use crate::strategy::language::Feature::{
-    self, After, All, Always, Any, BallInScoop, BallSeenWithin, BehindBall, Facing, HoldFor, In, Known,
-    Lasting, Near, NearLatch, NearerThan, Not, Stalled, Watchdog,
+    self, After, All, Always, Any, BallInScoop, BallSeenWithin, BehindBall, Bumped, Facing, HoldFor, In,
+    Known, Lasting, Near, NearLatch, NearerThan, Not, Stalled, Watchdog,
 };
 use crate::strategy::language::Point::{
     self, At, Average, Ball, BallIn, Closest, Homebase, Intercept, Into, Midpoint, Moved, OurGoal, Own,

@@ -10,12 +10,15 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 
 use super::ball_filter::{BallFilter, roll_on};
+use super::progress::{Progress, Step};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{PlayerNumber, Team};
 use crate::pitch::Pitch;
-use crate::robot::{Eyes, Frame, Localisation, MemorySpans, Sensing, range_deviation, should_be_seen};
+use crate::robot::{
+    Eyes, Fix, Frame, Localisation, MemorySpans, Odometry, Sensing, range_deviation, should_be_seen,
+};
 
 /// What a robot believes, in its team frame.
 #[derive(Component, Clone, Debug, Default)]
@@ -33,6 +36,7 @@ pub struct WorldModel {
     /// Believed poses of the last decisions, oldest first: a frame is older than now.
     past: VecDeque<(u64, Pose)>,
     odometry: Option<Pose>,
+    progress: Progress,
     last_frame: Option<u64>,
     misses: u32,
     /// How long robots have hidden the ball since it was seen last, s.
@@ -130,14 +134,21 @@ impl WorldModel {
         self.robots.iter().filter(move |robot| robot.team == team).map(|robot| robot.position)
     }
 
-    pub(super) fn dead_reckon(&mut self, odometry: Pose, tick: u64) {
-        if let Some(before) = self.odometry.replace(odometry) {
-            let turn = wrap_angle(odometry.heading - before.heading);
-            let way = before.to_local(odometry.position);
+    /// How long the robot has been told to move and has found itself not to, s.
+    pub fn stalled_for(&self, clock: &Clock) -> f32 {
+        self.progress.stalled_for(clock)
+    }
+
+    pub(super) fn dead_reckon(&mut self, odometry: &Odometry, clock: &Clock) {
+        if let Some(before) = self.odometry.replace(odometry.pose) {
+            let turn = wrap_angle(odometry.pose.heading - before.heading);
+            let way = before.to_local(odometry.pose.position);
             self.pose =
                 Pose { position: self.pose.to_field(way), heading: wrap_angle(self.pose.heading + turn) };
+            let time = self.past.back().map_or(0.0, |(tick, _)| clock.seconds_since(*tick));
+            self.progress.felt(Step { told: odometry.told, way: way.length(), turn, time }, clock);
         }
-        self.past.push_back((tick, self.pose));
+        self.past.push_back((clock.tick, self.pose));
         if self.past.len() > PAST {
             self.past.pop_front();
         }
@@ -161,11 +172,12 @@ impl WorldModel {
     }
 
     /// Takes in the fix of a frame, if it has one. A robot that does not know its place at all waits for a full one.
-    fn localise(&mut self, frame: &Frame, eyes: &Eyes) {
+    fn localise(&mut self, frame: &Frame, eyes: &Eyes, clock: &Clock) {
         let Some(fix) = frame.fix.filter(|fix| self.is_localised || fix.share >= 1.0) else { return };
         let then = self.pose_at(frame.taken);
         let offset = fix.pose.position - then.position;
         let turn = wrap_angle(fix.pose.heading - then.heading);
+        self.compare_places(frame.taken, fix, clock);
         let gain = if self.is_localised { fix_gain(fix.share, offset, turn, eyes) } else { 1.0 };
         // The way since then is as long as before, but leads elsewhere if the robot looked elsewhere.
         let turned = unit(gain * turn);
@@ -176,6 +188,15 @@ impl WorldModel {
         self.is_localised = true;
         self.pose = correct(self.pose);
         self.past.iter_mut().for_each(|(_, pose)| *pose = correct(*pose));
+    }
+
+    /// Whether landmarks show that it gets on as its wheels or steps report. Beliefs of the past move with every fix, as one, so
+    /// that the way between two of them is what was reckoned.
+    fn compare_places(&mut self, taken: u64, fix: Fix, clock: &Clock) {
+        let mut progress = std::mem::take(&mut self.progress);
+        let way = |from: u64, to: u64| self.pose_at(to).position - self.pose_at(from).position;
+        progress.saw((taken, fix.pose.position), fix.share, way, clock);
+        self.progress = progress;
     }
 
     /// The chin holds the ball, a little ahead of the robot's centre.
@@ -298,7 +319,7 @@ impl WorldModel {
             return;
         }
         let since = frame.taken - self.last_frame.unwrap_or(frame.taken);
-        self.localise(frame, &sensing.eyes);
+        self.localise(frame, &sensing.eyes, clock);
         self.see_ball(frame, sensing, since as f32 * clock.dt);
         self.see_robots(frame, &sensing.eyes);
         self.last_frame = Some(frame.taken);

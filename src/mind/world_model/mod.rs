@@ -2,6 +2,7 @@
 
 mod ball_filter;
 mod beliefs;
+mod progress;
 #[cfg(test)]
 mod tests;
 
@@ -54,7 +55,7 @@ fn update_world_models(
             continue;
         }
         let model = &mut *model;
-        model.dead_reckon(odometry.pose, clock.tick);
+        model.dead_reckon(odometry, &clock);
         if let Some(frame) = &percepts.frame {
             model.see(frame, &robot.sensing, &clock);
         }

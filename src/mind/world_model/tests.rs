@@ -299,6 +299,7 @@ fn a_ball_at_the_edge_of_view_or_range_may_be_missed_for_the_memorys_span() {
     }
 }
 
+mod getting_on;
 mod robots;
 mod scrum;
 

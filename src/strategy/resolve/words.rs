@@ -161,7 +161,8 @@ impl Resolver<'_> {
             | Feature::TeammateHasBooked
             | Feature::MayExecute(_)
             | Feature::HoldsBall
-            | Feature::GoalieIsOut => {}
+            | Feature::GoalieIsOut
+            | Feature::Bumped => {}
             Feature::InRole(role) => self.role_ref(role, at)?,
             Feature::TeammateHasBall(roles) => {
                 for (i, role) in roles.iter_mut().enumerate() {

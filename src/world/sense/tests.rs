@@ -1,4 +1,4 @@
-//! Frames on their way from the shutter to the robot, and wheels that turn in vain.
+//! Frames on their way from the shutter to the robot, and what its wheels report.
 
 use crate::ids::Team;
 use crate::robot::Camera;
@@ -15,7 +15,7 @@ use super::*;
 use crate::data::Source;
 use crate::geometry::Twist;
 use crate::ids::Team::{Away, Home};
-use crate::robot::{DriveCommand, OdometryNoise, OdometrySource, PlaceError, WheelSpeeds};
+use crate::robot::{DriveCommand, OdometryNoise, OdometrySource, PlaceError, RobotKind, WheelSpeeds};
 use crate::testing::{BALL, LANDMARKS, cye, pitch};
 use crate::world::referee::RuleBook;
 
@@ -57,8 +57,12 @@ impl Bench {
     }
 
     fn robot(&mut self, sensing: &Sensing, team: Team, number: u8, pose: Pose) -> Entity {
+        self.robot_of(cye(), sensing, team, number, pose)
+    }
+
+    fn robot_of(&mut self, kind: RobotKind, sensing: &Sensing, team: Team, number: u8, pose: Pose) -> Entity {
         let id = RobotId::new(team, number);
-        let robot = Robot::new(Arc::new(cye()), Arc::new(sensing.clone()), self.0.resource());
+        let robot = Robot::new(Arc::new(kind), Arc::new(sensing.clone()), self.0.resource());
         let eyesight = Eyesight::new(sensing, Seed(1), id);
         let drive = (Twist::default(), DriveCommand::idle(&robot.kind), Odometry::new(Seed(1), id));
         let senses = (Head::default(), Handling::new(Seed(1), id), eyesight, Percepts::default());
@@ -201,23 +205,23 @@ fn what_a_robot_sees_does_not_depend_on_the_order_in_which_the_others_came() {
 }
 
 #[test]
-fn wheels_that_turn_in_vain_are_noticed_until_the_robot_moves_or_they_stop() {
-    let mut bench = Bench::new(Vec2::X);
-    let robot = bench.robot(&perfect(), Home, 0, Pose::default());
-    let mut stalled = |tick: u64, told: f32, speed: f32, turn_rate: f32| {
-        let speeds = WheelSpeeds { left: 0.0, right: told };
-        bench.0.entity_mut(robot).insert(DriveCommand::Wheels(speeds));
-        bench.0.entity_mut(robot).insert(Twist { linear: Vec2::new(speed, 0.0), angular: turn_rate });
-        (60.0 * bench.odometry(tick, robot).stalled_for).round()
-    };
-    assert_eq!(stalled(0, 0.1, 0.0, 0.0), 0.0, "hardly told to move");
-    assert_eq!([1, 2, 3].map(|tick| stalled(tick, 0.5, 0.0, 0.0)), [1.0, 2.0, 3.0]);
-    assert_eq!([4, 5].map(|tick| stalled(tick, -0.5, -0.03, 0.0)), [4.0, 5.0], "creeping is no moving");
-    assert_eq!(stalled(6, 0.5, 0.1, 0.0), 0.0, "it drives");
-    assert_eq!(stalled(7, 0.5, 0.0, 0.0), 1.0);
-    assert_eq!(stalled(8, 0.5, 0.0, -0.5), 0.0, "it turns");
-    assert_eq!(stalled(9, 0.5, 0.0, 0.0), 1.0);
-    assert_eq!(stalled(10, 0.0, 0.0, 0.0), 0.0, "it rests");
+fn a_cye_that_drives_against_something_reports_a_bump_and_one_without_bump_sensing_does_not() {
+    for kind in [cye(), RobotKind { bump: None, ..cye() }] {
+        let mut bench = Bench::new(Vec2::X);
+        let robot = bench.robot_of(kind.clone(), &noisy(), Home, 0, Pose::default());
+        let mut reports = |ticks: std::ops::Range<u64>, told: f32, speed: f32| {
+            let wheels = DriveCommand::Wheels(WheelSpeeds { left: told, right: told });
+            let twist = Twist { linear: Vec2::new(speed, 0.0), angular: 0.0 };
+            bench.0.entity_mut(robot).insert((wheels, twist));
+            let felt = ticks.map(|tick| bench.odometry(tick, robot));
+            felt.filter(|odometry| odometry.bump.reports && odometry.told == told).count()
+        };
+        assert_eq!(reports(0..60, 0.5, 0.45), 0, "it drives");
+        let bumps = reports(60..240, 0.5, 0.0);
+        assert_eq!(bumps > 100, kind.bump.is_some(), "{bumps} of 180");
+        assert_eq!(reports(240..300, 0.5, 0.45), 0, "it is free");
+        assert_eq!(reports(300..360, 0.0, 0.0), 0, "it rests");
+    }
 }
 
 #[test]

@@ -162,6 +162,12 @@ fn times_count_from_the_moment_that_they_are_reached() {
     assert!(holds(&here, After(2.0)) && !holds(&here, After(2.01)));
 }
 
+#[test]
+fn a_robot_has_bumped_into_something_while_its_drive_says_so() {
+    assert!(!holds(&BLIND(), Bumped));
+    assert!(holds(&Situation { bumped: true, ..BLIND() }, Bumped));
+}
+
 /// What a statement about `Known(Ball)` says in the course of time: seconds and whether the ball is known.
 fn course(feature: &Feature, steps: &[(f32, bool)]) -> Vec<bool> {
     let mut memory = Memory::new(1);
