@@ -12,6 +12,7 @@ mod colours;
 mod fit;
 mod image;
 mod landmark;
+pub mod localise;
 mod lookup;
 mod optics;
 pub mod paint;
