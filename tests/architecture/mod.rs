@@ -17,7 +17,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("strategy", &["data", "pitch", "protocol"]),
     ("robot", &["data", "strategy", "vision"]),
     ("comms", &["data", "protocol", "robot"]),
-    ("world", &["data", "pitch", "robot"]),
+    ("world", &["data", "pitch", "robot", "vision"]),
     ("mind", &["comms", "pitch", "protocol", "robot", "strategy"]),
     ("game", &["comms", "data", "mind", "pitch", "protocol", "robot", "strategy", "vision", "world"]),
     ("lab", &["comms", "data", "game", "mind", "pitch", "protocol", "robot", "strategy", "world"]),

@@ -14,6 +14,7 @@ mod camera;
 mod landmarks;
 mod localisation;
 mod odometry;
+pub mod picture;
 #[cfg(test)]
 mod tests;
 
