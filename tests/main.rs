@@ -12,6 +12,7 @@ mod docs;
 mod duel;
 mod fairness;
 mod first_messages;
+mod images;
 mod network;
 mod numbers;
 mod paper_relations;

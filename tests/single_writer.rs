@@ -19,6 +19,7 @@ use touchline::state::StateRegister;
 use touchline::strategy::{Activity, Role};
 use touchline::world::ball::{Ball, Rolling};
 use touchline::world::referee::PenaltiesDue;
+use touchline::world::sense::HallLight;
 
 use crate::support::friendly;
 
@@ -157,6 +158,7 @@ fn shared(game: &mut Match) -> Vec<(ComponentId, &'static [TickSystems], &'stati
         (id_of::<Activity>(game), &[Script, Behaviour], ELSEWHERE),
         (id_of::<touchline::mind::world_model::WorldModel>(game), &[Script, WorldModel], ELSEWHERE),
         (id_of::<Channel>(game), &[Script, Transmit], "requests change the radio, packets move its dice"),
+        (id_of::<HallLight>(game), &[Script, Sense], "requests change the light, and it drifts"),
         (id_of::<FaultRules>(game), &[Script, Transmit], "requests add rules, packets use them up"),
     ]
 }

@@ -44,8 +44,10 @@ fn finish(game: &mut Match) -> u64 {
 fn check(plan: &MatchPlan) {
     let mut game = Match::new(plan);
     let mut dice = Dice::new(Seed(plan.seed), "looks", None);
-    let most = 2.0 * HALF * 60.0 * 60.0;
-    let mut ticks: Vec<u64> = (0..LOOKS).map(|_| (dice.uniform() * most) as u64).collect();
+    let halves = 2.0 * plan.rules.half_minutes;
+    let looks = (LOOKS as f32 * halves / (2.0 * HALF)).ceil() as usize;
+    let most = halves * 60.0 * 60.0;
+    let mut ticks: Vec<u64> = (0..looks).map(|_| (dice.uniform() * most) as u64).collect();
     ticks.sort_unstable();
     let mut snapshots = Vec::new();
     for tick in ticks {
@@ -95,6 +97,13 @@ fn dogs_that_book_the_ball_over_an_awful_radio_play_on_from_any_tick() {
 #[test]
 fn dogs_that_chase_the_ball_play_on_from_any_tick() {
     check(&plan("four_legged_2005", "awful", "ball_chasers", "chaos_b3p"));
+}
+
+#[test]
+fn dogs_that_see_by_pictures_play_on_from_any_tick() {
+    let mut plan = plan("four_legged_images", "good", "chaos_b3p", "chaos_b3p");
+    plan.rules.half_minutes = 0.05;
+    check(&plan);
 }
 
 #[test]

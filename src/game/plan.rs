@@ -19,6 +19,7 @@ use crate::pitch::{BallKind, Pitch};
 use crate::strategy::teamwork::TeamworkFile;
 use crate::strategy::{Strategy, StrategyReading};
 use crate::world::referee::RuleBook;
+use crate::world::sense::Lighting;
 
 /// A match as it is written in `assets/matches/*.ron`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +33,9 @@ pub struct MatchFile {
     pub ball: BallKind,
     /// The rules.
     pub rules: RuleBook,
+    /// The light of the hall, for robots that see by pictures.
+    #[serde(default)]
+    pub light: Lighting,
     /// The radio's file.
     #[serde(default = "default_radio")]
     pub radio: String,
@@ -48,6 +52,7 @@ impl Validate for MatchFile {
     fn validate(&self) -> Result<(), Fault> {
         self.ball.validate_as("ball")?;
         self.rules.validate_as("rules")?;
+        self.light.validate_as("light")?;
         self.tcm.validate_as("tcm")
     }
 }
@@ -92,6 +97,8 @@ pub struct MatchPlan {
     pub ball: BallKind,
     /// The rules.
     pub rules: RuleBook,
+    /// The light of the hall, which matters to robots that see by pictures.
+    pub light: Lighting,
     /// The radio.
     pub radio: Radio,
     /// Settings of the team communication module.
@@ -207,6 +214,7 @@ impl MatchPlan {
             pitch,
             ball: file.ball,
             rules: file.rules,
+            light: file.light,
             radio,
             tcm: file.tcm,
             addresses,

@@ -15,6 +15,7 @@ use crate::state;
 use crate::strategy::Strategies;
 use crate::world::physics::open_world;
 use crate::world::referee::MatchState;
+use crate::world::sense::{HallLight, Light};
 
 /// Ends the match in this world, if there is one, and starts another from the beginning.
 pub fn start_match(world: &mut World, plan: &MatchPlan) {
@@ -64,6 +65,7 @@ fn begin(world: &mut World, plan: &MatchPlan) {
 fn begin_match(world: &mut World, plan: &MatchPlan) {
     let seed = Seed(plan.seed);
     world.insert_resource(plan.rules.clone());
+    world.insert_resource(HallLight::new(Light::new(plan.light), seed));
     world.insert_resource(match &plan.situation {
         Some(situation) => MatchState::in_play(Team::Home, &plan.rules, situation.refereed),
         None => MatchState::new(Team::Home, &plan.rules),

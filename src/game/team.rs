@@ -116,7 +116,7 @@ fn read_calibration(
     (name, sensing): (&str, &Sensing),
 ) -> Result<Option<CameraCalibration>, DataError> {
     let Some(camera) = sensing.eyes.calibration() else { return Ok(None) };
-    let source = Source::read(&assets.file(AssetKind::Sensing, name))?;
+    let source = Source::read(assets.file(AssetKind::Sensing, name))?;
     checked(&file_named(assets, &source, AssetKind::Camera, ("eyes.calibration", camera))?).map(Some)
 }
 

@@ -115,7 +115,7 @@ fn play(name: &str, text: String) -> Instruction {
 
 fn debug_data(news: &[ChaosNews]) -> Vec<&DebugData> {
     let data = news.iter().filter_map(|news| match news {
-        ChaosNews::Debug(data) => Some(data),
+        ChaosNews::Debug(data) => Some(&**data),
         _ => None,
     });
     data.collect()

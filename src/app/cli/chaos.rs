@@ -104,7 +104,7 @@ impl ChaosCommand {
     fn print_data(&self, link: &mut ChaosLink, out: &mut impl Write) -> Result<Ending, CommandError> {
         link.subscribe(Subscription { images_hz: 0.0, data_hz: 10.0 });
         let talked = self.wait(link, |news| match news {
-            ChaosNews::Debug(data) => Some(data),
+            ChaosNews::Debug(data) => Some(*data),
             _ => None,
         })?;
         match self.told(link, talked, "data")? {

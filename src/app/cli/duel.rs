@@ -6,22 +6,15 @@ use clap::Args;
 
 use super::ending::{CommandError, Ending, print_json};
 use super::interrupt::Interrupt;
-use super::options::SeedOption;
+use super::options::{SeedOption, TeamsOptions};
 use super::progress::progress_bar;
 use crate::data::AssetFolder;
 use crate::lab::duel::{DuelChoice, DuelPlan, DuelTeams};
 
 #[derive(Args, Debug)]
 pub(super) struct DuelCommand {
-    /// The match whose pitch, ball, robots and radio the duel has: a name among the assets or a path.
-    #[arg(long = "match", value_name = "MATCH")]
-    file: Option<String>,
-    /// The first side's strategy: a name among the assets or a path; the match's home team's if not given.
-    #[arg(long, value_name = "STRATEGY")]
-    home: Option<String>,
-    /// The second side's strategy; the match's away team's if not given.
-    #[arg(long, value_name = "STRATEGY")]
-    away: Option<String>,
+    #[command(flatten)]
+    teams: TeamsOptions,
     /// How many robots each side has, such as 2v1: the players with the highest numbers.
     #[arg(long, value_name = "NvM", default_value = "1v1")]
     robots: DuelTeams,
@@ -47,9 +40,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 impl DuelCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let choice = DuelChoice {
-            file: self.file.clone(),
-            home: self.home.clone(),
-            away: self.away.clone(),
+            file: self.teams.file.clone(),
+            home: self.teams.home.clone(),
+            away: self.teams.away.clone(),
             teams: self.robots,
             trials: self.trials,
             seed: self.seed.of_match(),

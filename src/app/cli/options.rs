@@ -14,18 +14,25 @@ use crate::ids::RobotId;
 use crate::rng::{DEFAULT_SEED, LARGEST_SEED};
 use crate::world::gamecontroller::control::Version;
 
+/// Which match, and who plays in it.
+#[derive(Args, Clone, Debug, Default)]
+pub(super) struct TeamsOptions {
+    /// The match: a name among the assets or a path.
+    #[arg(long = "match", value_name = "MATCH")]
+    pub file: Option<String>,
+    /// The home team's strategy: a name among the assets or a path; that of the match if not given.
+    #[arg(long, value_name = "STRATEGY")]
+    pub home: Option<String>,
+    /// The away team's strategy.
+    #[arg(long, value_name = "STRATEGY")]
+    pub away: Option<String>,
+}
+
 /// The match, for a process that plays it and for one that plays a robot of it.
 #[derive(Args, Clone, Debug, Default)]
 pub(super) struct MatchOptions {
-    /// The match: a name among the assets or a path.
-    #[arg(long = "match", value_name = "MATCH")]
-    file: Option<String>,
-    /// The home team's strategy: a name among the assets or a path.
-    #[arg(long, value_name = "STRATEGY")]
-    home: Option<String>,
-    /// The away team's strategy.
-    #[arg(long, value_name = "STRATEGY")]
-    away: Option<String>,
+    #[command(flatten)]
+    teams: TeamsOptions,
     /// Where robots and computers are, as a file; robots have ports of this machine from 7400 on if not given.
     #[arg(long, value_name = "FILE")]
     addresses: Option<PathBuf>,
@@ -117,9 +124,9 @@ impl MatchOptions {
     /// The match as a process takes part in it that plays one of its robots.
     pub fn choice(&self, seed: &SeedOption) -> Choice {
         Choice {
-            file: self.file.clone(),
-            home: self.home.clone(),
-            away: self.away.clone(),
+            file: self.teams.file.clone(),
+            home: self.teams.home.clone(),
+            away: self.teams.away.clone(),
             addresses: self.addresses.clone(),
             seed: seed.of_match(),
             ..Choice::default()

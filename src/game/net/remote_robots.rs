@@ -307,20 +307,35 @@ mod tests {
 
     const ROBOT: RobotId = RobotId::new(Team::Home, 1);
 
-    #[test]
-    fn what_was_granted_is_spent_by_the_first_tick_that_waits() {
+    /// A match whose robot in another process is silent, that process' socket, and the match.
+    fn with_a_silent_robot() -> (RemoteRobots, UdpSocket, Match) {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         let plan = MatchPlan::read(&assets, &Choice::default()).unwrap();
         let somewhere = SocketAddr::from((Ipv4Addr::LOCALHOST, 0));
         let silent = UdpSocket::bind(somewhere).unwrap();
         let directory =
             [(HOST, somewhere), (ROBOT.into(), silent.local_addr().unwrap())].into_iter().collect();
-        let mut remote = RemoteRobots::open(&directory, &[ROBOT], &plan, 1).unwrap();
-        let mut game = Match::new(&plan);
+        let remote = RemoteRobots::open(&directory, &[ROBOT], &plan, 1).unwrap();
+        (remote, silent, Match::new(&plan))
+    }
+
+    #[test]
+    fn what_was_granted_is_spent_by_the_first_tick_that_waits() {
+        let (mut remote, _silent, mut game) = with_a_silent_robot();
         remote.robots.values_mut().for_each(|robot| robot.let_in(ROBOT, 0));
         remote.granted = Some(Duration::from_millis(5));
         remote.exchange(game.world_mut());
         assert_eq!(remote.granted, Some(Duration::ZERO));
         assert_eq!((remote.figures()[0].told, remote.figures()[0].missed), (1, 1));
+    }
+
+    #[test]
+    fn a_tick_that_waits_for_nobody_hears_so_many_datagrams_at_most_and_leaves_the_rest() {
+        let (mut remote, flood, mut game) = with_a_silent_robot();
+        let to = remote.conn.address();
+        (0..DATAGRAMS_A_TICK + 50).for_each(|_| assert_eq!(flood.send_to(b"?", to).ok(), Some(1)));
+        remote.exchange(game.world_mut());
+        let rest = std::iter::from_fn(|| remote.hear(Duration::ZERO)).count();
+        assert_eq!(rest, 50);
     }
 }

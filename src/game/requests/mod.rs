@@ -6,6 +6,7 @@
 //! that does not depend on what arrived first. Then each kind of request is carried out by the file of its name.
 
 mod bodies;
+mod light;
 mod pilots;
 mod queue;
 mod radio;
@@ -34,6 +35,7 @@ pub(super) fn plugin(app: &mut App) {
         pilots::seat_pilots,
         radio::change_radio,
         bodies::move_bodies,
+        light::change_light,
         referee_box::hear_referee_box,
         remote::hear_remote_robots,
     );

@@ -16,6 +16,7 @@ use crate::robot::pilot::Pilot;
 use crate::robot::{HeadIntent, KickIntent, Restart, RobotFailure, RobotKind, Sensing, SteeringIntent};
 use crate::strategy::Strategy;
 use crate::vision::{CameraSettings, ColourTable};
+use crate::world::sense::Lighting;
 
 /// Something that is to happen at the next tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +36,8 @@ pub enum Request {
     Radio(RadioChange),
     /// Something happens to a body.
     Body(BodyChange),
+    /// The light of the hall changes.
+    Light(Lighting),
     /// A packet that has reached the address at which a referee box is followed.
     RefereeBox { from: SocketAddr, bytes: Arc<[u8]> },
     /// News of a robot that decides in another process.
@@ -217,6 +220,7 @@ impl Request {
             | Request::SetWeight { .. }
             | Request::Robot(..)
             | Request::Radio(_)
+            | Request::Light(_)
             | Request::Body(_) => Origin::Person,
         }
     }

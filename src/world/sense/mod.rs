@@ -11,12 +11,17 @@ use crate::robot::Percepts;
 use crate::robot::Sensing;
 
 mod camera;
+mod images;
 mod landmarks;
 mod localisation;
 mod odometry;
 pub mod picture;
+mod shutter;
 #[cfg(test)]
 mod tests;
+
+pub use images::{HallLight, ImageEyes, ImageMemory, LastLook};
+pub use picture::{Light, LightDrift, Lighting};
 
 use std::collections::VecDeque;
 
@@ -46,7 +51,10 @@ pub(super) fn plugin(app: &mut App) {
         .on(|eyesight, _: &PutDown, _| eyesight.blink())
         .on(|eyesight, _: &SwitchedOn, _| eyesight.blink())
         .on(|eyesight, misled: &Misled, _| eyesight.misled = PoseError::of(misled.by, misled.turn));
-    app.add_systems(Tick, (take_frames, deliver_frames, read_odometry).chain().in_set(TickSystems::Sense));
+    images::state(app);
+    let in_order =
+        (take_frames, read_odometry, shutter::drift_light, shutter::take_pictures, deliver_frames).chain();
+    app.add_systems(Tick, in_order.in_set(TickSystems::Sense));
 }
 
 /// A robot's eyes, with the errors and the frames that are under way inside them.

@@ -36,7 +36,7 @@ pub enum ChaosNews {
     /// How the camera is calibrated.
     Camera(CameraData),
     /// What the robot believes, is in and wants.
-    Debug(DebugData),
+    Debug(Box<DebugData>),
     /// The order of this number is carried out.
     Accepted(u32),
     /// The order of this number is not carried out.
@@ -245,7 +245,7 @@ impl ChaosTalk {
         }
         let image = || ImageData::unserialise(data_type, data).map(ChaosNews::Image);
         let camera = || CameraData::unserialise(data_type, data).map(ChaosNews::Camera);
-        let debug = || DebugData::unserialise(data_type, data).map(ChaosNews::Debug);
+        let debug = || DebugData::unserialise(data_type, data).map(|data| ChaosNews::Debug(Box::new(data)));
         let answer = || {
             let OrderAnswer { number, outcome } = OrderAnswer::unserialise(data_type, data)?;
             Some(match outcome {

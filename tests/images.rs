@@ -1,0 +1,135 @@
+//! Matches of robots that see nothing but pictures.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use touchline::game::requests::{Request, RequestLog, Requests, RobotChange};
+use touchline::game::{Choice, Match, MatchPlan};
+use touchline::geometry::Pose;
+use touchline::ids::{RobotId, Team};
+use touchline::mind::world_model::WorldModel;
+use touchline::robot::CalibratedCamera;
+use touchline::vision::{ColourClass, ColourTable, Resolution};
+use touchline::world::ball::Ball;
+use touchline::world::sense::{ImageMemory, Lighting};
+
+use crate::support::assets;
+
+fn plan(file: &str, seed: u64) -> MatchPlan {
+    let choice = Choice { file: Some(file.into()), half_minutes: Some(1.0), seed, ..Choice::default() };
+    MatchPlan::read(&assets(), &choice).expect("the shipped files are sound")
+}
+
+/// What is found of a match while it is played on for so many ticks.
+#[derive(Default)]
+struct Found {
+    /// Looks of robots, and those that showed a ball.
+    looks: usize,
+    balls: usize,
+    /// Of robots that know their place, how far off each is, m.
+    places: Vec<f32>,
+    /// Of robots that see the ball, how far off they believe it from where it is to them, m.
+    sights: Vec<f32>,
+}
+
+fn play(game: &mut Match, ticks: u64) -> Found {
+    let mut found = Found::default();
+    for _ in 0..ticks {
+        game.tick();
+        let attacking = Team::BOTH.map(|team| game.state().attacking(team));
+        let tick = game.clock().tick - 1;
+        let world = game.world_mut();
+        let ball =
+            world.query_filtered::<&Pose, With<Ball>>().single(world).expect("there is a ball").position;
+        let mut robots = world.query::<(&RobotId, &Pose, &ImageMemory, &WorldModel)>();
+        for (id, pose, memory, model) in robots.iter(world) {
+            let Some(last) = memory.last().filter(|last| last.tick == tick) else { continue };
+            found.looks += 1;
+            found.balls += usize::from(last.recognised.ball.is_some());
+            let ends = attacking[id.team.index()];
+            if let Some(filtered) = memory.filter().pose().filter(|_| model.is_localised()) {
+                found.places.push(ends.turn_pose(filtered).position.distance(pose.position));
+            }
+            if let Some(sighting) = last.recognised.ball {
+                found.sights.push(sighting.placed(*pose).distance(ball));
+            }
+        }
+    }
+    found
+}
+
+fn ask(game: &mut Match, request: Request) {
+    game.world_mut().resource_mut::<Requests>().ask(request);
+}
+
+fn median(mut values: Vec<f32>) -> f32 {
+    values.sort_unstable_by(f32::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f32::NAN)
+}
+
+#[test]
+fn robots_find_ball_and_place_in_pictures() {
+    for (file, place) in [("four_legged_images", 0.35), ("friendly_images", 0.5)] {
+        let mut game = Match::new(&plan(file, 3));
+        play(&mut game, 34 * 60);
+        let found = play(&mut game, 10 * 60);
+        let share = found.balls as f32 / found.looks as f32;
+        assert!(share > 0.15, "{file}: a ball in {share} of the pictures");
+        let (places, sights) = (median(found.places), median(found.sights));
+        assert!(places < place, "{file}: half of all robots are wrong by {places} m and more");
+        assert!(sights < 0.15, "{file}: half of all sightings are wrong by {sights} m and more");
+    }
+}
+
+#[test]
+fn a_robot_without_colours_sees_nothing_and_one_that_gets_them_back_sees() {
+    let plan = plan("four_legged_images", 3);
+    let mut game = Match::new(&plan);
+    let colours = plan.team(Team::Home).calibration.as_ref().expect("it sees by pictures").colours.clone();
+    let all = |colours: &ColourTable| {
+        plan.robots()
+            .map(|id| Request::Robot(id, RobotChange::SetColours(colours.clone())))
+            .collect::<Vec<_>>()
+    };
+    let mut without = colours.clone();
+    without.0.remove(&ColourClass::Orange);
+    all(&without).into_iter().for_each(|request| ask(&mut game, request));
+    assert_eq!(play(&mut game, 36 * 60).balls, 0);
+    all(&colours).into_iter().for_each(|request| ask(&mut game, request));
+    assert!(play(&mut game, 60).balls > 0);
+}
+
+#[test]
+fn a_match_in_which_somebody_calibrates_is_played_again_from_its_requests() {
+    let plan = plan("four_legged_images", 5);
+    let robot = RobotId::new(Team::Away, 2);
+    let mut settings = plan.team(Team::Away).calibration.as_ref().expect("it sees by pictures").settings;
+    (settings.gain, settings.resolution) = (1.7, Resolution::Half);
+    let mut game = Match::new(&plan);
+    game.world_mut().insert_resource(RequestLog::default());
+    let dim = Lighting { brightness: 0.6, ..Lighting::default() };
+    for (tick, request) in [
+        (20, Request::Robot(robot, RobotChange::SetCamera(settings))),
+        (60, Request::Robot(robot, RobotChange::SetColours(ColourTable::default()))),
+        (90, Request::Light(dim)),
+    ] {
+        while game.clock().tick < tick {
+            game.tick();
+        }
+        ask(&mut game, request);
+    }
+    play(&mut game, 300);
+    let ticks = game.clock().tick;
+    let requests = game.world().resource::<RequestLog>().0.clone();
+    assert_eq!(requests.len(), 3);
+    let mut again = Match::new(&MatchPlan { script: requests, ..plan });
+    (0..ticks).for_each(|_| again.tick());
+    assert_eq!(again.record().digest, game.record().digest);
+    let world = again.world_mut();
+    let mut cameras = world.query::<(&RobotId, &CalibratedCamera)>();
+    let of_robot = |wanted: RobotId| {
+        move |(id, camera): (&RobotId, &CalibratedCamera)| (*id == wanted).then(|| Arc::clone(&camera.0))
+    };
+    let camera = cameras.iter(world).find_map(of_robot(robot)).expect("it has one");
+    assert_eq!((camera.settings, camera.colours.0.len()), (settings, 0));
+}
