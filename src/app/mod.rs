@@ -1,5 +1,7 @@
 //! The program that a person uses: its command line and its window.
 
+#[cfg(feature = "window")]
+mod chaos_window;
 pub mod cli;
 #[cfg(feature = "window")]
 mod headless_check;

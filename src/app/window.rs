@@ -1,5 +1,6 @@
 //! The window: puts view and inspector together, opens them, and tells how it ended.
 
+use bevy::app::PluginGroupBuilder;
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
 use bevy::window::{PresentMode, WindowResolution};
@@ -28,21 +29,30 @@ pub enum WindowEnd {
 /// Opens the window and returns how it ended: begins at the menu, or in the match if one is wanted.
 pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> WindowEnd {
     let mut app = App::new();
-    app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window()), ..default() }).set(
-        LogPlugin {
-            level: Level::ERROR,
-            filter: String::new(),
-            fmt_layer: logging::window_layer,
-            ..default()
-        },
-    ));
+    app.add_plugins(default_plugins("Touchline"));
     app.add_plugins((EguiPlugin::default(), crate::game::simulation, view::plugin, inspector::plugin));
     app.insert_resource(Folder(assets.clone()));
     app.insert_resource(PendingMatch(wanted));
     if let Some(file) = settings::SettingsFile::of_this_person() {
         app.insert_resource(file);
     }
-    match app.run() {
+    ended(app.run())
+}
+
+/// What any window of the program needs of Bevy.
+pub(super) fn default_plugins(title: &str) -> PluginGroupBuilder {
+    let log = LogPlugin {
+        level: Level::ERROR,
+        filter: String::new(),
+        fmt_layer: logging::window_layer,
+        ..default()
+    };
+    DefaultPlugins.set(WindowPlugin { primary_window: Some(window(title)), ..default() }).set(log)
+}
+
+/// What the end of a window's program means.
+pub(super) fn ended(exit: AppExit) -> WindowEnd {
+    match exit {
         AppExit::Success => WindowEnd::Closed,
         AppExit::Error(code) if code.get() == expectations::FAILED => WindowEnd::ScenarioFailed,
         AppExit::Error(code) if code.get() == INTERRUPTED => WindowEnd::Interrupted,
@@ -53,9 +63,9 @@ pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Window
 /// What Bevy says after Ctrl-C.
 const INTERRUPTED: u8 = 130;
 
-fn window() -> Window {
+fn window(title: &str) -> Window {
     Window {
-        title: "Touchline".into(),
+        title: title.into(),
         name: Some("touchline".into()),
         resolution: WindowResolution::new(window_size::FIRST.x, window_size::FIRST.y),
         present_mode: PresentMode::AutoVsync,

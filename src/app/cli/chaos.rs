@@ -11,16 +11,17 @@ use super::ending::{CommandError, Ending, print_json, tell};
 use super::interrupt::Interrupt;
 use super::options::seconds;
 use super::picture_file::PictureFormat;
+use super::windows;
 use crate::app::whole_file::{check_writable, write_whole};
-use crate::data::{DataError, Source};
-use crate::game::checked;
+use crate::data::{AssetFolder, DataError, Source};
 use crate::game::net::NetworkError;
 use crate::game::net::chaos::{ChaosLink, ChaosNews, Instruction, Refusal, StrategyText, Subscription};
+use crate::game::{Choice, MatchPlan, checked};
 use crate::ids::RobotId;
 use crate::vision::CameraCalibration;
 
 #[derive(Args, Debug)]
-#[command(group = ArgGroup::new("task").args(["image", "data", "strategy", "colours"]).required(true))]
+#[command(group = ArgGroup::new("task").args(["image", "data", "strategy", "colours"]))]
 pub(super) struct ChaosCommand {
     /// The match: what it was given as `--chaos`.
     #[arg(long, value_name = "ADDRESS")]
@@ -40,6 +41,9 @@ pub(super) struct ChaosCommand {
     /// Set the robot's camera as a camera's file has its settings and colours.
     #[arg(long, value_name = "FILE")]
     colours: Option<PathBuf>,
+    /// The match that is played there, as a name or a path: what the window recognises in pictures, and how the robot kicks.
+    #[arg(long = "match", value_name = "MATCH")]
+    game: Option<String>,
     /// How many seconds to wait for the match.
     #[arg(long, value_name = "SECONDS", default_value = "5", value_parser = seconds)]
     timeout: Duration,
@@ -57,7 +61,15 @@ enum Talked<T> {
 const LOOK: Duration = Duration::from_millis(100);
 
 impl ChaosCommand {
-    pub(super) fn run(&self, out: &mut impl Write) -> Result<Ending, CommandError> {
+    /// Whether nothing was asked for that needs no window.
+    pub(super) fn opens_window(&self) -> bool {
+        self.image.is_none() && !self.data && self.strategy.is_none() && self.colours.is_none()
+    }
+
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        if self.opens_window() {
+            return self.open_window(assets);
+        }
         let mut link = ChaosLink::open(self.connect, self.robot)?;
         if let Some(path) = &self.image {
             return self.fetch_image(&mut link, path, out);
@@ -74,6 +86,20 @@ impl ChaosCommand {
             return self.give(&mut link, orders, out);
         }
         self.print_data(&mut link, out)
+    }
+
+    fn open_window(&self, assets: &AssetFolder) -> Result<Ending, CommandError> {
+        if let Some(missing) = windows::missing() {
+            let instead = "--image, --data, --strategy and --colours need none";
+            return Err(DataError::new("chaos", format!("{missing}; {instead}")).into());
+        }
+        let game = self
+            .game
+            .as_ref()
+            .map(|game| MatchPlan::read(assets, &Choice { file: Some(game.clone()), ..Choice::default() }));
+        let game = game.transpose()?;
+        let link = ChaosLink::open(self.connect, self.robot)?;
+        Ok(windows::open_chaos_window(assets, link, game.as_ref()))
     }
 
     fn fetch_image(

@@ -14,6 +14,7 @@ mod progress;
 mod robot;
 mod run;
 mod run_report;
+mod windows;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -69,7 +70,12 @@ pub fn main() -> ExitCode {
 impl Cli {
     fn perform(self) -> Result<Ending, CommandError> {
         // The window has its own log.
-        if !matches!(self.command, None | Some(CliCommand::Play(_))) {
+        let opens_window = match &self.command {
+            None | Some(CliCommand::Play(_)) => true,
+            Some(CliCommand::Chaos(chaos)) => chaos.opens_window(),
+            Some(_) => false,
+        };
+        if !opens_window {
             crate::app::logging::log_to_stderr();
         }
         let assets = AssetFolder::find(self.assets.as_deref())?;
@@ -80,7 +86,7 @@ impl Cli {
             Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),
-            Some(CliCommand::Chaos(chaos)) => chaos.run(&mut out),
+            Some(CliCommand::Chaos(chaos)) => chaos.run(&assets, &mut out),
             Some(CliCommand::Check(check)) => check.run(&assets, &mut out),
         }?;
         out.flush()?;

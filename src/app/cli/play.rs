@@ -7,6 +7,7 @@ use clap::Args;
 use crate::app::cli::ending::{CommandError, Ending, tell};
 use crate::app::cli::interrupt::Interrupt;
 use crate::app::cli::options::{HostOptions, MatchOptions, SeedOption};
+use crate::app::cli::windows;
 use crate::app::match_request::MatchRequest;
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
@@ -38,8 +39,11 @@ impl PlayCommand {
         }
         let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
         let plan = MatchPlan::read(assets, &choice)?;
-        let Some(missing) = missing_for_a_window() else {
-            return Ok(open_window(assets, self.chooses(&choice).then_some(MatchRequest::Match(choice))));
+        let Some(missing) = windows::missing() else {
+            return Ok(windows::open_match_window(
+                assets,
+                self.chooses(&choice).then_some(MatchRequest::Match(choice)),
+            ));
         };
         if self.pilot.is_some() {
             return Err(
@@ -65,8 +69,8 @@ impl PlayCommand {
     ) -> Result<Ending, CommandError> {
         let mut plan = ScenarioPlan::read(assets, &scenario)?;
         let seed = self.seed.seed;
-        let Some(missing) = missing_for_a_window() else {
-            return Ok(open_window(assets, Some(MatchRequest::Scenario { scenario, seed })));
+        let Some(missing) = windows::missing() else {
+            return Ok(windows::open_match_window(assets, Some(MatchRequest::Scenario { scenario, seed })));
         };
         let interrupt = Interrupt::listen();
         tell(format_args!("{missing}, so the scenario is played headless"));
@@ -82,30 +86,6 @@ impl PlayCommand {
             false => Ending::Failed,
         })
     }
-}
-
-#[cfg(feature = "window")]
-use crate::app::headless_check::missing_for_a_window;
-
-#[cfg(feature = "window")]
-fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Ending {
-    use crate::app::window::WindowEnd;
-    match crate::app::window::open_window(assets, wanted) {
-        WindowEnd::Closed => Ending::Done,
-        WindowEnd::ScenarioFailed => Ending::Failed,
-        WindowEnd::Interrupted => Ending::Interrupted,
-        WindowEnd::Failed => Ending::WindowFailed,
-    }
-}
-
-#[cfg(not(feature = "window"))]
-fn missing_for_a_window() -> Option<&'static str> {
-    Some("this build has no window")
-}
-
-#[cfg(not(feature = "window"))]
-fn open_window(_: &AssetFolder, _: Option<MatchRequest>) -> Ending {
-    Ending::WindowFailed
 }
 
 #[cfg(test)]

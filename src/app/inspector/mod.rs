@@ -12,11 +12,14 @@ mod overlays;
 mod panel;
 mod pending;
 mod radio;
-mod sections;
+pub(in crate::app) mod sections;
 mod subject;
-mod table;
+pub(in crate::app) mod table;
 mod tuner;
+pub(in crate::app) mod vision;
 mod world_view;
+
+pub(in crate::app) use panel::set_close;
 
 use bevy::prelude::*;
 
@@ -27,5 +30,5 @@ pub fn plugin(app: &mut App) {
 
 /// All but the view of the world, which wants a renderer.
 pub(crate) fn panels(app: &mut App) {
-    app.add_plugins((panel::plugin, overlays::plugin, radio::plugin, communication::plugin));
+    app.add_plugins((panel::plugin, overlays::plugin, radio::plugin, communication::plugin, vision::plugin));
 }

@@ -98,7 +98,7 @@ fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
 }
 
 /// Much is to be seen at once here, so type and rows are as small as they may be anywhere.
-pub(super) fn set_close(ui: &mut egui::Ui) {
+pub fn set_close(ui: &mut egui::Ui) {
     use egui::TextStyle::{Body, Button};
     let style = ui.style_mut();
     for name in [Body, Button] {

@@ -5,6 +5,7 @@ use bevy_egui::egui;
 
 use crate::ids::Team;
 use crate::strategy::language::SchemaKind;
+use crate::vision::ColourClass;
 
 const fn rgb(hex: u32) -> Color {
     let [_, red, green, blue] = hex.to_be_bytes();
@@ -100,6 +101,20 @@ pub const fn schema(kind: SchemaKind) -> Color {
     }
 }
 
+/// The colour of a class of pixels in a picture that is cut by colour.
+pub const fn class(class: ColourClass) -> Color {
+    match class {
+        ColourClass::Orange => BALL,
+        ColourClass::Yellow => EAST_GOAL,
+        ColourClass::SkyBlue => rgb(0x56_B4_F2),
+        ColourClass::Pink => rgb(0xFF_7F_BF),
+        ColourClass::Red => rgb(0xD8_2F_2F),
+        ColourClass::DarkBlue => rgb(0x34_44_C8),
+        ColourClass::White => CHALK,
+        ColourClass::Green => CARPET,
+    }
+}
+
 /// The colour of a robot's number among its team mates, where it tells who has booked the ball.
 pub fn number(number: u8) -> Color {
     const COLOURS: [u32; 8] =
@@ -127,6 +142,15 @@ mod tests {
     fn the_teams_differ_in_lightness_as_well() {
         let lightness = |of: Team| Oklcha::from(team(of)).lightness;
         assert!(lightness(Team::Away) - lightness(Team::Home) > 0.08);
+    }
+
+    #[test]
+    fn every_class_of_pixels_has_a_colour_of_its_own() {
+        let mut seen: Vec<_> = ColourClass::ALL.map(|of| egui(class(of)).to_array()).to_vec();
+        seen.push(egui(SUNKEN).to_array());
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(seen.len(), 9);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 use super::colours::{self, egui as paint};
 use super::state::PanelSystems;
 
-pub(super) fn plugin(app: &mut App) {
+pub(in crate::app) fn plugin(app: &mut App) {
     app.add_systems(EguiPrimaryContextPass, set_style.in_set(PanelSystems::Clear).run_if(run_once));
 }
 

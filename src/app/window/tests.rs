@@ -1,5 +1,6 @@
 //! The whole interface laid out without a window or a graphics adapter, in windows and with panels that people may have.
 
+mod camera;
 mod silent_robots;
 
 use std::time::Duration;
@@ -50,6 +51,8 @@ struct LaidOutFrame {
     texts: Vec<(String, bool)>,
     /// The grounds of panels and the like, with their colours.
     grounds: Vec<(Rect, egui::Color32)>,
+    /// Pictures, such as those of a robot's camera.
+    pictures: Vec<Rect>,
     /// Of the pitch; nothing in the menu.
     free: Rect,
 }
@@ -109,12 +112,23 @@ impl LaidOutWindow {
     }
 
     fn frame(&mut self, size: egui::Vec2, pixels_a_point: f32) -> LaidOutFrame {
+        self.frame_with(size, pixels_a_point, Vec::new())
+    }
+
+    /// A frame in which a person does something.
+    fn frame_with(
+        &mut self,
+        size: egui::Vec2,
+        pixels_a_point: f32,
+        events: Vec<egui::Event>,
+    ) -> LaidOutFrame {
         self.app.update();
         self.frames += 1;
         let screen = Rect::from_min_size(egui::Pos2::ZERO, size);
         let mut input = egui::RawInput {
             screen_rect: Some(screen),
             time: Some(f64::from(self.frames) / 60.0),
+            events,
             ..egui::RawInput::default()
         };
         input.viewports.entry(egui::ViewportId::ROOT).or_default().native_pixels_per_point =
@@ -124,9 +138,15 @@ impl LaidOutWindow {
         let output = self.ctx.end_pass();
         let mut texts = Vec::new();
         let mut grounds = Vec::new();
+        let mut pictures = Vec::new();
         for clipped in &output.shapes {
             if let egui::Shape::Rect(ground) = &clipped.shape {
                 grounds.push((ground.rect.intersect(clipped.clip_rect), ground.fill));
+            }
+            if let egui::Shape::Mesh(mesh) = &clipped.shape
+                && mesh.texture_id != egui::TextureId::default()
+            {
+                pictures.push(mesh.calc_bounds());
             }
             collect_texts(&clipped.shape, clipped.clip_rect.intersect(screen), &mut texts);
         }
@@ -137,7 +157,7 @@ impl LaidOutWindow {
         });
         let in_match = self.app.world().resource::<Session>().plan.is_some();
         let free = if in_match { self.app.world().resource::<FreeArea>().0 } else { Rect::NOTHING };
-        LaidOutFrame { screen, layers, texts, grounds, free }
+        LaidOutFrame { screen, layers, texts, grounds, pictures, free }
     }
 }
 
@@ -227,7 +247,7 @@ const WINDOWS: [(f32, f32); 19] = [
 
 /// What may be open, with a name for it.
 fn programs() -> Vec<(&'static str, LaidOutWindow)> {
-    use Overlay::{Communication, Labels, Radio, Teamwork, Vectors};
+    use Overlay::{Camera, Communication, Labels, Radio, Teamwork, Vectors};
     let mut asked = LaidOutWindow::playing(Some(ROBOT)).open([Labels]);
     asked.app.insert_resource(OpenDialogues { question: Some(Question::Leave), ..OpenDialogues::default() });
     let mut helped = LaidOutWindow::playing(None);
@@ -247,6 +267,7 @@ fn programs() -> Vec<(&'static str, LaidOutWindow)> {
         ("playing with everything", LaidOutWindow::playing(Some(ROBOT)).open(Overlay::ALL)),
         ("the radio", LaidOutWindow::playing(None).open([Labels, Radio])),
         ("the team communication", LaidOutWindow::playing(None).open([Labels, Communication])),
+        ("the camera", LaidOutWindow::playing(None).open([Labels, Camera])),
         ("a scenario", LaidOutWindow::scenario("swap_figure_8").open([Labels, Radio])),
         ("a question", asked),
         ("the keys", helped),
@@ -295,9 +316,12 @@ fn panels_are_as_large_as_before_when_a_small_window_is_large_again() {
 
 #[test]
 fn the_panels_below_the_pitch_show_their_pages_under_their_heads() {
-    for (overlay, head, page) in
-        [(Overlay::Radio, "Jam", "home 0"), (Overlay::Communication, "Modules", "queue full")]
-    {
+    let no_pictures = "home 1 sees without pictures: the eyes of its sensing preset are not Images.";
+    for (overlay, head, page) in [
+        (Overlay::Radio, "Jam", "home 0"),
+        (Overlay::Communication, "Modules", "queue full"),
+        (Overlay::Camera, "Camera", no_pictures),
+    ] {
         let mut program = LaidOutWindow::playing(None).open([overlay]);
         let frame = program.show(vec2(1280.0, 720.0), 1.0);
         assert!(frame.shows(head) && frame.shows(page), "{overlay:?}: {:?}", frame.texts);

@@ -68,6 +68,11 @@ impl HallLight {
 pub struct PictureHall(Option<Arc<(Hall, KnownObjects)>>);
 
 impl PictureHall {
+    /// What robots know of it beforehand. Nothing before the first picture.
+    pub fn known(&self) -> Option<&KnownObjects> {
+        self.0.as_deref().map(|(_, known)| known)
+    }
+
     pub(super) fn of(
         &mut self,
         pitch: &Pitch,

@@ -20,8 +20,9 @@ mod shutter;
 #[cfg(test)]
 mod tests;
 
-pub use images::{HallLight, ImageEyes, ImageMemory, LastLook};
+pub use images::{HallLight, ImageEyes, ImageMemory, LastLook, PictureHall};
 pub use picture::{Light, LightDrift, Lighting};
+pub use shutter::robot_paint;
 
 use std::collections::VecDeque;
 

@@ -139,7 +139,8 @@ impl Subjects<'_, '_> {
     }
 }
 
-fn robot_paint(kind: &RobotKind) -> RobotPaint {
+/// How robots of a kind are painted.
+pub fn robot_paint(kind: &RobotKind) -> RobotPaint {
     match kind.drive {
         Drive::Walker(_) => RobotPaint::WALKER,
         Drive::Differential(_) => RobotPaint::WHEELED,

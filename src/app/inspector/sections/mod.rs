@@ -12,6 +12,7 @@ mod teleoperation;
 
 use bevy_egui::egui;
 pub use panel_actions::PanelActions;
+pub use teleoperation::TeleoperatedBody;
 
 use super::subject::SelectedRobot;
 

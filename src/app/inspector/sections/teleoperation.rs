@@ -10,6 +10,7 @@ use crate::app::view::format;
 use crate::app::view::input::keyboard::Keyboard;
 use crate::app::view::input::keys::{Deed, DriveKey};
 use crate::app::view::input::manual_control::ManualControl;
+use crate::clock::Clock;
 use crate::robot::handling::Grip;
 use crate::robot::{Drive, Kick, RobotKind};
 
@@ -17,7 +18,18 @@ use crate::robot::{Drive, Kick, RobotKind};
 const LEVER: f32 = 120.0;
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
-    let kind = &robot.of.robot.kind;
+    let body = TeleoperatedBody {
+        kind: &robot.of.robot.kind,
+        pan: robot.of.head.pan,
+        chin: match robot.of.handling.grip {
+            Grip::Open => "open",
+            Grip::Lowering { .. } => "goes down",
+            Grip::Holding { .. } => "holds the ball",
+            Grip::Raising { .. } => "missed, goes up",
+        },
+        holds: robot.of.handling.holds(),
+        kicking: robot.of.handling.kicking.map(|kicking| kicking.kick),
+    };
     let mine = actions.piloted.0 == Some(robot.id);
     if !mine {
         ui.horizontal(|ui| {
@@ -28,22 +40,48 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut Panel
     let mut still = ManualControl::default();
     ui.add_enabled_ui(mine, |ui| {
         let control = if mine { &mut *actions.control } else { &mut still };
+        body.show_levers(ui, control, actions.keyboard, &robot.clock);
+    });
+}
+
+/// The robot under a person's hands, as far as its levers show it.
+pub struct TeleoperatedBody<'a> {
+    pub kind: &'a RobotKind,
+    /// Where its head looks, rad to the left.
+    pub pan: f32,
+    /// What its chin does.
+    pub chin: &'a str,
+    /// Whether it holds the ball.
+    pub holds: bool,
+    /// The kick that it is at.
+    pub kicking: Option<Kick>,
+}
+
+impl TeleoperatedBody<'_> {
+    /// Shows the levers.
+    pub fn show_levers(
+        &self,
+        ui: &mut egui::Ui,
+        control: &mut ManualControl,
+        keyboard: &Keyboard,
+        clock: &Clock,
+    ) {
         ui.horizontal_top(|ui| {
-            walk(ui, kind, control);
+            walk(ui, self.kind, control);
             ui.add_space(6.0);
             ui.vertical(|ui| {
-                speeds(ui, kind, control);
-                if matches!(kind.drive, Drive::Walker(_)) {
-                    turn(ui, kind, control);
+                speeds(ui, self.kind, control);
+                if matches!(self.kind.drive, Drive::Walker(_)) {
+                    turn(ui, self.kind, control);
                 }
-                head(ui, robot, control);
-                if kind.chin.is_some() {
-                    hold(ui, robot, control, actions.keyboard);
+                head(ui, self, control);
+                if self.kind.chin.is_some() {
+                    hold(ui, self, control, keyboard);
                 }
             });
         });
-        kicks(ui, robot, control);
-    });
+        kicks(ui, self, control, clock);
+    }
 }
 
 /// The pad. What has wheels turns where what has legs steps aside.
@@ -113,9 +151,9 @@ fn turn(ui: &mut egui::Ui, kind: &RobotKind, control: &mut ManualControl) {
     }
 }
 
-fn head(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl) {
-    let Some(neck) = &robot.of.robot.kind.neck else { return };
-    let mut pan = control.head.map_or(robot.of.head.pan.to_degrees(), |share| share * neck.pan);
+fn head(ui: &mut egui::Ui, body: &TeleoperatedBody, control: &mut ManualControl) {
+    let Some(neck) = &body.kind.neck else { return };
+    let mut pan = control.head.map_or(body.pan.to_degrees(), |share| share * neck.pan);
     let slider = lever(ui, "Head", &mut pan, neck.pan, "°");
     if slider.changed() {
         control.head = Some(pan / neck.pan);
@@ -133,13 +171,8 @@ fn head(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl) {
     }
 }
 
-fn hold(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl, keyboard: &Keyboard) {
-    let told = match robot.of.handling.grip {
-        Grip::Open => "open",
-        Grip::Lowering { .. } => "goes down",
-        Grip::Holding { .. } => "holds the ball",
-        Grip::Raising { .. } => "missed, goes up",
-    };
+fn hold(ui: &mut egui::Ui, body: &TeleoperatedBody, control: &mut ManualControl, keyboard: &Keyboard) {
+    let told = body.chin;
     ui.horizontal(|ui| {
         let key = keyboard.key(Deed::Drive(DriveKey::Hold));
         let tip =
@@ -149,22 +182,22 @@ fn hold(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl, k
     });
 }
 
-fn kicks(ui: &mut egui::Ui, robot: &SelectedRobot, control: &mut ManualControl) {
-    let kicks = &robot.of.robot.kind.kicks;
+fn kicks(ui: &mut egui::Ui, body: &TeleoperatedBody, control: &mut ManualControl, clock: &Clock) {
+    let kicks = &body.kind.kicks;
     if kicks.is_empty() {
         return;
     }
     ui.horizontal_wrapped(|ui| {
         ui.label("Kick");
         for (number, (name, kick)) in kicks.iter().enumerate() {
-            let now = robot.of.handling.kicking.is_some_and(|kicking| kicking.kick == *kick);
+            let now = body.kicking.is_some_and(|kicking| kicking == *kick);
             let asked = control.kick_asked() == Some(number);
             let button = egui::Button::new(RichText::new(name.replace('_', " "))).selected(now || asked);
-            let possible = !kick.from_hold || robot.of.handling.holds();
+            let possible = !kick.from_hold || body.holds;
             let button = ui.add_enabled(possible, button);
             let button = button.on_hover_text(told(kick)).on_disabled_hover_text(told(kick));
             if button.clicked() {
-                control.kick(number, &robot.clock);
+                control.kick(number, clock);
             }
         }
     });

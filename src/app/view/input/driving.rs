@@ -87,6 +87,8 @@ fn steer(
     (mut requests, mut control): (ResMut<Requests>, ResMut<ManualControl>),
     mut last: Local<Option<(RobotId, Pilot)>>,
 ) -> Result {
+    // Keys with Ctrl are for panels.
+    let chord = held.any_pressed([KeyCode::ControlLeft, KeyCode::ControlRight]);
     let elsewhere = contexts.ctx_mut()?.egui_wants_keyboard_input() || open.question.is_some();
     let control = control.bypass_change_detection();
     if last.map(|(robot, _)| robot) != driven.id() {
@@ -94,6 +96,7 @@ fn steer(
     }
     for (kick, direction) in KICKS {
         if !elsewhere
+            && !chord
             && kick.is_held(&held)
             && let Some(kick) = driven.kick_to(direction)
         {

@@ -36,6 +36,8 @@ const WIDE: f32 = 1250.0;
 const MARGIN: egui::Margin = egui::Margin { left: 12, right: 12, top: 7, bottom: 6 };
 /// Height of a button, in points.
 const BUTTON: f32 = 26.0;
+/// Room beside the names of overlays, in points.
+const NARROW: f32 = 5.0;
 
 /// What the bar shows besides the time line.
 #[derive(SystemParam)]
@@ -99,6 +101,7 @@ impl Controls<'_> {
                 self.button(ui, "Menu", 52.0, Action::Leave);
                 self.button(ui, "? Keys", 60.0, Action::Help);
                 ui.separator();
+                ui.spacing_mut().button_padding.x = NARROW;
                 for overlay in Overlay::ALL.into_iter().rev() {
                     self.show_overlay(ui, overlay);
                 }

@@ -53,12 +53,13 @@ overlays! {
     Teamwork      Digit6 "Teamwork" "Teamwork: claims, supports, locks and messages";
     Radio         KeyM   "Radio"    "The radio: messages, bookings, interference";
     Communication KeyN   "Comms"    "Team communication, and the referee box";
+    Camera        KeyV   "Camera"   "The camera of the selected robot, and its calibration";
 }
 
 impl Overlay {
     /// Whether it is a panel below the pitch, where there is room for one.
     fn is_panel(self) -> bool {
-        matches!(self, Overlay::Radio | Overlay::Communication)
+        matches!(self, Overlay::Radio | Overlay::Communication | Overlay::Camera)
     }
 }
 
@@ -80,7 +81,7 @@ impl From<Overlays> for Vec<Overlay> {
 }
 
 impl Overlays {
-    /// These and no others; of the two panels the last.
+    /// These and no others; of the panels below the pitch the last.
     pub fn only(on: impl IntoIterator<Item = Overlay>) -> Overlays {
         let mut overlays = Overlays([false; _]);
         for overlay in on {

@@ -110,7 +110,7 @@ impl RememberedPanels {
 
 /// How large panels are whose edges can be dragged, in points.
 #[derive(Resource, Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct PanelSizes {
     /// Its width.
     pub inspector: f32,
@@ -118,24 +118,30 @@ pub struct PanelSizes {
     pub radio: f32,
     /// Its height.
     pub communication: f32,
+    /// Its height.
+    pub camera: f32,
 }
 
 impl PanelSizes {
     /// Each with its name in the file of settings.
-    pub fn each(&mut self) -> [(&'static str, &mut f32); 3] {
-        let PanelSizes { inspector, radio, communication } = self;
-        [("inspector", inspector), ("radio", radio), ("communication", communication)]
+    pub fn each(&mut self) -> [(&'static str, &mut f32); 4] {
+        let PanelSizes { inspector, radio, communication, camera } = self;
+        [("inspector", inspector), ("radio", radio), ("communication", communication), ("camera", camera)]
     }
 
     /// The height of a panel below the pitch.
     pub fn below(&mut self, panel: Overlay) -> &mut f32 {
-        if panel == Overlay::Communication { &mut self.communication } else { &mut self.radio }
+        match panel {
+            Overlay::Communication => &mut self.communication,
+            Overlay::Camera => &mut self.camera,
+            _ => &mut self.radio,
+        }
     }
 }
 
 impl Default for PanelSizes {
     fn default() -> PanelSizes {
-        PanelSizes { inspector: 400.0, radio: 246.0, communication: 246.0 }
+        PanelSizes { inspector: 400.0, radio: 246.0, communication: 246.0, camera: 340.0 }
     }
 }
 
