@@ -160,7 +160,8 @@ mod tests {
         assert_eq!(kind("(name : \"a\", seconds : 1, expect : [oops])"), Ok(AssetKind::Scenario));
         assert_eq!(kind("(name: \"a\", latency: (, los: )"), Ok(AssetKind::Radio));
         assert_eq!(kind("{\"home 0\": 7"), Ok(AssetKind::Addresses));
-        let kinds = "strategy, scenario, match, pitch, robot, sensing preset, radio, table of addresses";
+        let kinds =
+            "strategy, scenario, match, pitch, robot, sensing preset, camera, radio, table of addresses";
         let unknown = Err(format!("its fields do not say what it is; there are: {kinds}"));
         for text in ["(name: \"a\")", "()", "(colour: Red)", "[package]", "7"] {
             assert_eq!(kind(text), unknown, "{text}");
