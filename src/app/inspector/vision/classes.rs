@@ -1,8 +1,10 @@
 //! How well the classes are cut: of each class the pixels that are missed and those that are falsely of it, against the truth.
 
 use bevy_egui::egui;
+use egui::text::{LayoutJob, TextFormat};
 
 use crate::app::inspector::table::{Column, counts, figures, heading, row, words};
+use crate::app::view::style::SMALL;
 use crate::app::view::{colours, format};
 use crate::vision::{ColourClass, Quality};
 
@@ -20,8 +22,8 @@ pub fn show(ui: &mut egui::Ui, quality: &Quality, chosen: &mut ColourClass) {
     heading(ui, &CLASSES);
     for class in ColourClass::ALL {
         let of = quality.class(class);
-        let cells = [
-            egui::RichText::new(class.to_string()).color(colours::egui(colours::class(class))),
+        let cells: [egui::WidgetText; CLASSES.len()] = [
+            named(class).into(),
             percent(of.recall()).into(),
             percent(of.precision()).into(),
             of.missed.to_string().into(),
@@ -37,6 +39,17 @@ pub fn show(ui: &mut egui::Ui, quality: &Quality, chosen: &mut ColourClass) {
             *chosen = class;
         }
     }
+}
+
+/// The name of a class after a square in its colour.
+pub fn named(class: ColourClass) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    let mut append = |text: &str, colour| {
+        job.append(text, 0.0, TextFormat::simple(egui::FontId::proportional(SMALL), colours::egui(colour)));
+    };
+    append("■ ", colours::class(class));
+    append(&class.to_string(), colours::TEXT);
+    job
 }
 
 fn percent(share: Option<f32>) -> String {

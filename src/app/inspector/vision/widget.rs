@@ -44,6 +44,8 @@ const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key
 const MARGIN: u8 = 4;
 /// Room that the controls take beside the pictures, in points.
 const CONTROLS: f32 = 330.0;
+/// Where the controls have so much room, they are in two columns, in points.
+const TWO_COLUMNS: f32 = 720.0;
 /// Height of the line that tells of the pixel under the pointer, in points.
 const LINE: f32 = 20.0;
 
@@ -62,6 +64,8 @@ impl<'a> CalibrationPage<'a> {
     /// Shows the row above the pictures: which are shown, the classes, steps back, files.
     pub fn show_toolbar(&mut self, ui: &mut egui::Ui) {
         self.held = ui.input(|input| input.pointer.any_down());
+        ui.spacing_mut().item_spacing.x = 3.0;
+        ui.spacing_mut().button_padding.x = 5.0;
         ui.label(RichText::new(format!("Camera of {}", self.view.whose)).size(15.0).strong());
         ui.separator();
         for ((_, title, tip), shown) in PictureKind::ALL.into_iter().zip(&mut self.widget.panel.shown) {
@@ -77,10 +81,8 @@ impl<'a> CalibrationPage<'a> {
 
     fn show_chips(&mut self, ui: &mut egui::Ui) {
         for class in ColourClass::ALL {
-            let colour = colours::egui(colours::class(class));
-            let text = RichText::new(format!("■ {class}")).color(colour);
             let chosen = self.widget.panel.class == class;
-            let chip = ui.selectable_label(chosen, text);
+            let chip = ui.selectable_label(chosen, egui::WidgetText::from(classes::named(class)));
             if chip.on_hover_text("Click pixels to teach this class").clicked() {
                 self.widget.panel.class = class;
             }
@@ -123,7 +125,7 @@ impl<'a> CalibrationPage<'a> {
         let panel = &mut self.widget.panel;
         let own = self.view.file.map_or("", |(name, _)| name);
         let mut name = panel.name.clone().unwrap_or_else(|| own.to_owned());
-        let field = egui::TextEdit::singleline(&mut name).desired_width(110.0).hint_text("name");
+        let field = egui::TextEdit::singleline(&mut name).desired_width(90.0).hint_text("name");
         if ui.add(field).on_hover_text("The name of the file among the cameras").changed() {
             panel.name = Some(name.clone());
         }
@@ -224,7 +226,23 @@ impl<'a> CalibrationPage<'a> {
         ui.label(format!("{x}, {y}:  Y {bright}  U {u}  V {v}  is {is}{truth}"));
     }
 
+    /// Beside each other where there is room, else below each other.
     fn show_controls(&mut self, ui: &mut egui::Ui) {
+        if ui.available_width() < TWO_COLUMNS {
+            self.show_colours(ui);
+            ui.separator();
+            self.show_settings(ui);
+            return;
+        }
+        ui.columns(2, |columns| {
+            if let [left, right] = columns {
+                self.show_colours(left);
+                self.show_settings(right);
+            }
+        });
+    }
+
+    fn show_colours(&mut self, ui: &mut egui::Ui) {
         let class = self.widget.panel.class;
         let file = self.view.file.map(|(_, file)| file);
         let cut = self.widget.segmenter.segmented();
@@ -235,7 +253,10 @@ impl<'a> CalibrationPage<'a> {
             ui.separator();
         }
         thresholds::show(ui, class, file.map(|file| &file.colours), &mut self.edit.values.colours);
-        ui.separator();
+    }
+
+    fn show_settings(&mut self, ui: &mut egui::Ui) {
+        let file = self.view.file.map(|(_, file)| file);
         let filed = file.map_or(self.view.calibration.settings, |file| file.settings);
         camera_controls::show(ui, &self.view.calibration.optics, &filed, &mut self.edit.values.settings);
         if let Some([now, first]) = self.view.light {
