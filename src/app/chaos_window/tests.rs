@@ -15,14 +15,14 @@ use crate::vision::{ColourClass, ColourTable, Gaze};
 const ROBOT: RobotId = RobotId::new(Team::Home, 1);
 
 /// A desk on a robot that has sent a picture, and knows nothing of the ball's colour.
-struct Looking {
+struct ManagedRobot {
     hand: Hand,
     desk: ChaosDesk,
     sent: Vec<Instruction>,
 }
 
-impl Looking {
-    fn new() -> Looking {
+impl ManagedRobot {
+    fn new() -> ManagedRobot {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         let choice = Choice { file: Some("four_legged_2005".into()), ..Choice::default() };
         let plan = MatchPlan::read(&assets, &choice).expect("a shipped match");
@@ -34,7 +34,7 @@ impl Looking {
         robot.hear(ChaosNews::Image(image));
         let desk = ChaosDesk::new(robot, assets, Some(KnownMatch::of(&plan, ROBOT)));
         let hand = Hand::on(vec2(1280.0, 800.0));
-        let mut looking = Looking { hand, desk, sent: Vec::new() };
+        let mut looking = ManagedRobot { hand, desk, sent: Vec::new() };
         looking.frame(Vec::new());
         looking
     }
@@ -64,7 +64,7 @@ impl Looking {
 
 #[test]
 fn a_click_on_a_picture_from_elsewhere_is_an_order_and_is_shown_until_it_is_answered() {
-    let mut looking = Looking::new();
+    let mut looking = ManagedRobot::new();
     let drawn = looking.frame(Vec::new());
     assert_eq!(drawn.pictures.len(), 3);
     drawn.place_of("The match is silent for 3 s");
@@ -78,7 +78,7 @@ fn a_click_on_a_picture_from_elsewhere_is_an_order_and_is_shown_until_it_is_answ
 
 #[test]
 fn a_robot_is_driven_from_the_desk_only_while_it_is_taken_over() {
-    let mut looking = Looking::new();
+    let mut looking = ManagedRobot::new();
     assert_eq!(looking.desk.pilot(), None);
     let at = looking.frame(Vec::new()).place_of("Take over").center();
     looking.click(at);

@@ -21,7 +21,7 @@ pub struct SeenThing {
 
 /// How a picture was taken.
 #[derive(Clone, Copy, Debug)]
-pub struct Viewpoint<'a> {
+pub struct CameraView<'a> {
     pub optics: &'a Optics,
     /// Width and height of the picture, pixels.
     pub size: (usize, usize),
@@ -40,7 +40,7 @@ struct Extent {
 const POINT: f32 = 0.02;
 
 /// Everything that was recognised, where it lies in the picture.
-pub fn seen_things(view: &Viewpoint, known: &KnownObjects, recognised: &Recognised) -> Vec<SeenThing> {
+pub fn seen_things(view: &CameraView, known: &KnownObjects, recognised: &Recognised) -> Vec<SeenThing> {
     let ball = recognised.ball.and_then(|ball| {
         let extent = Extent { width: 2.0 * known.ball_radius, bottom: 0.0, top: 2.0 * known.ball_radius };
         view.thing(ball, extent, ColourClass::Orange, Some("ball".into()))
@@ -50,7 +50,7 @@ pub fn seen_things(view: &Viewpoint, known: &KnownObjects, recognised: &Recognis
     landmarks.chain(robots).chain(ball).collect()
 }
 
-impl Viewpoint<'_> {
+impl CameraView<'_> {
     fn robot(&self, known: &KnownObjects, team: Team, at: Sighting) -> Option<SeenThing> {
         let paint = known.robots[team.index()];
         let radius = paint.marker_radius.unwrap_or(BODY);
@@ -122,7 +122,7 @@ mod tests {
         let known = samples::known();
         let optics =
             Optics { width: 208, height: 160, field_of_view: 56.9, mount: 0.19, tilt: 0.0, nod: 0.0 };
-        let view = Viewpoint { optics: &optics, size: (208, 160), gaze: Gaze { pan: 0.4, tilt: 0.2 } };
+        let view = CameraView { optics: &optics, size: (208, 160), gaze: Gaze { pan: 0.4, tilt: 0.2 } };
         let ball = Sighting { range: 1.5, bearing: 0.4 };
         let recognised = Recognised { ball: Some(ball), ..Recognised::default() };
         let [seen] = &seen_things(&view, &known, &recognised)[..] else { panic!("one thing was seen") };
@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn what_would_be_behind_the_lens_is_not_drawn() {
         let view =
-            Viewpoint { optics: &samples::calibration().optics, size: (64, 48), gaze: Gaze::default() };
+            CameraView { optics: &samples::calibration().optics, size: (64, 48), gaze: Gaze::default() };
         let ball = Sighting { range: 1.0, bearing: std::f32::consts::PI };
         let recognised = Recognised { ball: Some(ball), ..Recognised::default() };
         assert_eq!(seen_things(&view, &samples::known(), &recognised), []);

@@ -12,16 +12,16 @@ const NUMBER: f32 = 40.0;
 const BAR: f32 = 150.0;
 
 /// A channel: its letter, what it is, and its place in a box.
-struct Channel {
+struct YuvChannel {
     letter: &'static str,
     tip: &'static str,
     of: fn(&mut ColourBox) -> &mut (u8, u8),
 }
 
-const CHANNELS: [Channel; 3] = [
-    Channel { letter: "Y", tip: "Brightness, from 0 to 255", of: |colour| &mut colour.y },
-    Channel { letter: "U", tip: "Blue against brightness; 128 is no colour", of: |colour| &mut colour.u },
-    Channel { letter: "V", tip: "Red against brightness; 128 is no colour", of: |colour| &mut colour.v },
+const CHANNELS: [YuvChannel; 3] = [
+    YuvChannel { letter: "Y", tip: "Brightness, from 0 to 255", of: |colour| &mut colour.y },
+    YuvChannel { letter: "U", tip: "Blue against brightness; 128 is no colour", of: |colour| &mut colour.u },
+    YuvChannel { letter: "V", tip: "Red against brightness; 128 is no colour", of: |colour| &mut colour.v },
 ];
 
 /// Everything is of a class that begins with this; a person narrows it.
@@ -69,7 +69,7 @@ pub fn show(ui: &mut egui::Ui, class: ColourClass, file: Option<&ColourTable>, t
 
 fn row(
     ui: &mut egui::Ui,
-    channel: &Channel,
+    channel: &YuvChannel,
     class: ColourClass,
     filed: Option<(u8, u8)>,
     range: &mut (u8, u8),

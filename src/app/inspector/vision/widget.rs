@@ -9,7 +9,7 @@ use super::history::CameraValues;
 use super::light_controls;
 use super::panel_state::{CalibrationEdit, CalibrationPanel};
 use super::pictures::{self, FoundThings, PictureKind, PictureTextures, PixelClick, PixelPointer};
-use super::seen::{Viewpoint, seen_things};
+use super::seen::{CameraView, seen_things};
 use super::thresholds;
 use super::view::{CalibrationView, CalibrationWish};
 use crate::app::view::colours;
@@ -167,7 +167,7 @@ impl<'a> CalibrationPage<'a> {
             ui.weak("No picture yet.");
             return;
         };
-        let viewpoint = Viewpoint {
+        let viewpoint = CameraView {
             optics: &self.view.calibration.optics,
             size: (image.width, image.height),
             gaze: self.view.gaze,
