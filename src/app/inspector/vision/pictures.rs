@@ -187,8 +187,11 @@ impl FoundThings<'_> {
         for thing in self.things {
             frame(painter, placed(thing), 2.0, thing.class);
         }
+        let mut taken = Vec::new();
         for thing in self.things {
-            thing.words.iter().for_each(|words| label(painter, picture, placed(thing), words));
+            if let Some(words) = &thing.words {
+                taken.push(label(painter, picture, placed(thing), (words, thing.class), &taken));
+            }
         }
     }
 }
@@ -205,17 +208,34 @@ fn frame(painter: &egui::Painter, around: Rect, width: f32, class: ColourClass) 
     painter.rect_stroke(around, 0.0, Stroke::new(width, colours::egui(colours::class(class))), outside);
 }
 
-/// Words over a thing, or below it where the picture ends.
-fn label(painter: &egui::Painter, picture: Rect, around: Rect, words: &str) {
+/// Words over a thing, with a stroke in its colour; where that is.
+fn label(
+    painter: &egui::Painter,
+    picture: Rect,
+    around: Rect,
+    (words, class): (&str, ColourClass),
+    taken: &[Rect],
+) -> Rect {
     let font = egui::FontId::proportional(SMALL);
     let galley = painter.layout_no_wrap(words.to_owned(), font, colours::egui(colours::TEXT));
-    let size = galley.size() + vec2(4.0, 0.0);
-    let above = around.top() - 2.0 - size.y;
-    let top = if above >= picture.top() { above } else { around.bottom() + 2.0 };
+    let place = free_place(picture, around, galley.size() + vec2(7.0, 0.0), taken);
+    painter.rect_filled(place, 2.0, Color32::from_black_alpha(190));
+    let stroke = place.with_max_x(place.left() + 3.0);
+    painter.rect_filled(stroke, 1.0, colours::egui(colours::class(class)));
+    painter.galley(place.min + vec2(5.0, 0.0), galley, Color32::WHITE);
+    place
+}
+
+/// A place for a label of a size: over a thing if it is free, else the nearest one above or below that is; within the picture.
+fn free_place(picture: Rect, around: Rect, size: Vec2, taken: &[Rect]) -> Rect {
     let left = (around.center().x - size.x / 2.0).min(picture.right() - size.x).max(picture.left());
-    let place = Rect::from_min_size(pos2(left, top.min(picture.bottom() - size.y)), size);
-    painter.rect_filled(place, 2.0, Color32::from_black_alpha(170));
-    painter.galley(place.min + vec2(2.0, 0.0), galley, Color32::WHITE);
+    let lowest = (picture.bottom() - size.y).max(picture.top());
+    let wanted = (around.top() - 2.0 - size.y).clamp(picture.top(), lowest);
+    let at = |top: f32| Rect::from_min_size(pos2(left, top), size);
+    let is_free = |place: &Rect| !taken.iter().any(|other| other.intersects(*place));
+    let steps = (0..=40).flat_map(|step| [-step, step]).map(|step| wanted + step as f32 * size.y / 2.0);
+    let within = steps.filter(|top| (picture.top()..=lowest).contains(top));
+    within.map(at).find(is_free).unwrap_or(at(wanted))
 }
 
 #[cfg(test)]
@@ -232,6 +252,19 @@ mod tests {
         assert_eq!(scale(vec2(2000.0, 500.0), SIZE, 3), 3.0);
         assert_eq!(scale(vec2(10.0, 10.0), SIZE, 3), 1.0, "smaller rooms scroll");
         assert_eq!(scale(vec2(960.0, 400.0), (52, 40), 3), 6.0, "one of a quarter is as large");
+    }
+
+    #[test]
+    fn labels_lie_over_their_things_beside_each_other_and_within_the_picture() {
+        let picture = Rect::from_min_size(pos2(100.0, 50.0), vec2(240.0, 180.0));
+        let thing = Rect::from_min_size(pos2(180.0, 120.0), vec2(20.0, 20.0));
+        let mut taken: Vec<Rect> = Vec::new();
+        for _ in 0..8 {
+            let place = free_place(picture, thing, vec2(90.0, 16.0), &taken);
+            assert!(picture.contains_rect(place) && !taken.iter().any(|other| other.intersects(place)));
+            taken.push(place);
+        }
+        assert_eq!((taken[0].bottom(), taken[0].center().x), (118.0, 190.0));
     }
 
     #[test]

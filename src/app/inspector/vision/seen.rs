@@ -64,11 +64,11 @@ impl CameraView<'_> {
         let point = Extent { width: 2.0 * POINT, bottom: 0.0, top: POINT };
         let (extent, class, words) = match seen.landmark {
             Landmark::GoalPost { east, north } => {
-                (post, goal_colour(east), Some(format!("{} goal, {} post", end(east), side(north))))
+                (post, goal_colour(east), Some(format!("{} post {}", end(east), side(north))))
             }
             Landmark::Beacon { east, north } => {
                 let [_, upper] = beacon_colours(east, north);
-                (beacon, upper, Some(format!("beacon {} {}", side(north), end(east))))
+                (beacon, upper, Some(format!("{} beacon {}", end(east), side(north))))
             }
             Landmark::Line | Landmark::Wall => (point, ColourClass::White, None),
         };
@@ -109,7 +109,7 @@ fn end(east: bool) -> &'static str {
 }
 
 fn side(north: bool) -> &'static str {
-    if north { "north" } else { "south" }
+    if north { "N" } else { "S" }
 }
 
 #[cfg(test)]
