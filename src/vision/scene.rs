@@ -1,4 +1,4 @@
-//! Plain scenes for tests, seen by a camera: nominal paints without light or noise.
+//! Plain scenes for tests, seen by a camera: nominal paints without light, noise or the mixing of colours at edges.
 
 use bevy::math::{Vec2, Vec3};
 

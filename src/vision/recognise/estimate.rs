@@ -10,7 +10,7 @@ pub struct RangeEstimate {
 }
 
 impl RangeEstimate {
-    /// To the middle of a thing whose near side was measured.
+    /// To a place so much farther, as the middle of a thing is whose near side was measured.
     pub fn beyond(self, depth: f32) -> RangeEstimate {
         RangeEstimate { range: self.range + depth, ..self }
     }

@@ -104,8 +104,8 @@ fn find_post(
     (is_at_its_height && estimate.range <= known.farthest).then(|| PostEnd {
         north: false,
         bearing: view.bearing(head),
-        // What is seen at the end is a post, or, from aside, the back of the goal beyond it.
-        estimate: estimate.less_sure(known.goal_depth / 2.0),
+        // What is seen at the end is a post, or, from aside, the back of the goal beyond it: the middle of both.
+        estimate: estimate.beyond(-known.goal_depth / 2.0).less_sure(known.goal_depth / 2.0),
     })
 }
 

@@ -83,7 +83,7 @@ fn a_ball_is_where_it_looks_to_be() {
         for (range, bearing) in ranges.into_iter().flat_map(|range| [-0.3, 0.0, 0.37].map(|b| (range, b))) {
             let seen = look(&optics, &known, &[ball_at(at(range, bearing), known.ball_radius)]);
             let ball = seen.ball.unwrap_or_else(|| panic!("no ball at {range} {bearing}"));
-            assert!((ball.range - range).abs() < 0.03 + 0.03 * range * range, "{range} {bearing}: {ball:?}");
+            assert!((ball.range - range).abs() < 0.03 + 0.05 * range * range, "{range} {bearing}: {ball:?}");
             assert!((ball.bearing - bearing).abs() < 0.01, "{range} {bearing}: {ball:?}");
             assert!(seen.robots.is_empty() && seen.landmarks.is_empty(), "{seen:?}");
         }
@@ -315,7 +315,7 @@ fn points_of_lines_and_walls_are_on_them() {
 #[test]
 fn a_coarser_picture_shows_what_is_near() {
     let known = aibo();
-    for (step, range, reach) in [(2, 1.0, 0.06), (4, 0.5, 0.06)] {
+    for (step, range, reach) in [(2, 1.0, 0.09), (4, 0.5, 0.09)] {
         let size = (AIBO.width / step, AIBO.height / step);
         let ball = look_at(size, &AIBO, &known, &[ball_at(at(range, 0.1), 0.045)]).ball.unwrap();
         assert!((ball.range - range).abs() < reach && (ball.bearing - 0.1).abs() < 0.03, "{step}: {ball:?}");
