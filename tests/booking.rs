@@ -112,7 +112,7 @@ fn whole_matches_of_four_legged_robots_end_and_both_kinds_of_robots_can_meet() {
     let mut mixed = MatchPlan::read(&assets(), &mixed).expect("any team can play on any pitch");
     let cyes = MatchPlan::read(&assets(), &Choice::default()).expect("the shipped match is sound");
     mixed.teams[1].kind = cyes.teams[1].kind.clone();
-    mixed.teams[1].sensing = cyes.teams[1].sensing.clone();
+    mixed.teams[1].senses.sensing = cyes.teams[1].senses.sensing.clone();
     for plan in [mixed, plan("chaos_b3p", "chaos_b3p_paper", 3, 1.0)] {
         let game = played(&plan);
         assert_eq!(game.state().phase, Phase::Finished);

@@ -64,7 +64,9 @@ fn plan(strategy: &str) -> MatchPlan {
     for team in &mut plan.teams {
         // A ball that the camera made up is sensed, but not near any truth.
         // And a robot that is blocked, pushed or carried errs by as much as it likes.
-        if let Eyes::Real { camera, localisation, odometry } = &mut Arc::make_mut(&mut team.sensing).eyes {
+        if let Eyes::Real { camera, localisation, odometry } =
+            &mut Arc::make_mut(&mut team.senses.sensing).eyes
+        {
             camera.false_positive = 0.0;
             (localisation.landmarks, localisation.put_down) = (None, PlaceError::default());
             odometry.from = OdometrySource::Motion;
@@ -83,7 +85,7 @@ const RISE: u64 = 1230;
 
 /// How far what a robot says may lie from the truth: four deviations of its place, m, and of a sight, as a share of its length.
 fn errors(plan: &MatchPlan, id: RobotId) -> (f32, f32) {
-    match &plan.team(id.team).sensing.eyes {
+    match &plan.team(id.team).senses.sensing.eyes {
         Eyes::Perfect | Eyes::Images { .. } => (0.05, 0.05),
         Eyes::Real { camera, localisation, .. } => {
             (4.0 * localisation.position, 4.0 * (localisation.heading.to_radians() + camera.range_noise))
@@ -105,7 +107,7 @@ fn falsehood(plan: &MatchPlan, id: RobotId, message: &TeamMessage, truths: &[Tru
         TeamMessage::HaveBall(said) => {
             let now = tick_of(said.time);
             // A ball that it saw is where it was, or where it rolled from there, until the robot forgets it.
-            let memory = plan.team(id.team).sensing.memory.ball * TICK_HZ;
+            let memory = plan.team(id.team).senses.sensing.memory.ball * TICK_HZ;
             let seen = now.saturating_sub(memory as usize)..=now;
             let distance = seen.map(|tick| own(now).distance(ball(tick))).fold(f32::INFINITY, f32::min);
             (

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use touchline::data::{AssetKind, DataError};
 use touchline::game::requests::{Request, RequestLog, Requests, RobotChange};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::Pose;
@@ -85,7 +86,8 @@ fn robots_find_ball_and_place_in_pictures() {
 fn a_robot_without_colours_sees_nothing_and_one_that_gets_them_back_sees() {
     let plan = plan("four_legged_images", 3);
     let mut game = Match::new(&plan);
-    let colours = plan.team(Team::Home).calibration.as_ref().expect("it sees by pictures").colours.clone();
+    let colours =
+        plan.team(Team::Home).senses.calibration.as_ref().expect("it sees by pictures").colours.clone();
     let all = |colours: &ColourTable| {
         plan.robots()
             .map(|id| Request::Robot(id, RobotChange::SetColours(colours.clone())))
@@ -103,7 +105,8 @@ fn a_robot_without_colours_sees_nothing_and_one_that_gets_them_back_sees() {
 fn a_match_in_which_somebody_calibrates_is_played_again_from_its_requests() {
     let plan = plan("four_legged_images", 5);
     let robot = RobotId::new(Team::Away, 2);
-    let mut settings = plan.team(Team::Away).calibration.as_ref().expect("it sees by pictures").settings;
+    let mut settings =
+        plan.team(Team::Away).senses.calibration.as_ref().expect("it sees by pictures").settings;
     (settings.gain, settings.resolution) = (1.7, Resolution::Half);
     let mut game = Match::new(&plan);
     game.world_mut().insert_resource(RequestLog::default());
@@ -132,4 +135,36 @@ fn a_match_in_which_somebody_calibrates_is_played_again_from_its_requests() {
     };
     let camera = cameras.iter(world).find_map(of_robot(robot)).expect("it has one");
     assert_eq!((camera.settings, camera.colours.0.len()), (settings, 0));
+}
+
+/// The four-legged match, whose home team has this besides.
+fn with_home(besides: &str) -> Result<MatchPlan, DataError> {
+    let text =
+        std::fs::read_to_string(assets().file(AssetKind::Match, "four_legged_2005")).expect("it is there");
+    let changed = text.replacen("home: (", &format!("home: ({besides}, "), 1);
+    assert_ne!(changed, text);
+    let folder = tempfile::tempdir().expect("there is room for a file");
+    let file = folder.path().join("mine.ron");
+    std::fs::write(&file, changed).expect("there is room for a file");
+    let file = Some(file.to_string_lossy().into_owned());
+    MatchPlan::read(&assets(), &Choice { file, ..Choice::default() })
+}
+
+#[test]
+fn one_robot_of_a_team_may_see_by_pictures() {
+    let plan = with_home(r#"sensing_of: {2: "aibo_ers7_images"}"#).expect("it is sound");
+    let mut game = Match::new(&plan);
+    game.tick();
+    let world = game.world_mut();
+    let mut seers = world.query_filtered::<&RobotId, With<ImageMemory>>();
+    assert_eq!(seers.iter(world).copied().collect::<Vec<_>>(), [RobotId::new(Team::Home, 2)]);
+}
+
+#[test]
+fn senses_of_a_robot_that_is_not_there_or_that_no_file_has_are_told_with_their_place() {
+    let error = |besides: &str| with_home(besides).expect_err("it is not sound").to_string();
+    let nobody = error(r#"sensing_of: {4: "aibo_ers7_images"}"#);
+    assert!(nobody.contains("home.sensing_of.4: the team has 4 players, from 0 on"), "{nobody}");
+    let nothing = error(r#"sensing_of: {1: "nonesuch"}"#);
+    assert!(nothing.contains("home.sensing_of.1: ") && nothing.contains("aibo_ers7_images"), "{nothing}");
 }

@@ -96,7 +96,7 @@ fn perfect_sensing_is_a_switch() {
     let source = Source::read(assets().file(AssetKind::Sensing, "perfect")).expect("the preset can be read");
     let perfect: Arc<Sensing> = Arc::new(source.parse().expect("the preset is sound"));
     let mut plan = friendly(1, 0.5);
-    plan.teams.iter_mut().for_each(|team| team.sensing = perfect.clone());
+    plan.teams.iter_mut().for_each(|team| team.senses.sensing = perfect.clone());
     let mut game = Match::new(&plan);
     let mut checked = 0;
     while !game.is_over() {

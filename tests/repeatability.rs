@@ -92,7 +92,7 @@ fn a_match_with_people_and_changed_files_is_played_again_from_its_requests() {
     let team = &plan.teams[0];
     let mut kind = team.kind.as_ref().clone();
     kind.body.friction *= 0.5;
-    let calibration = Calibration { kind: Arc::new(kind), sensing: team.sensing.clone() };
+    let calibration = Calibration { kind: Arc::new(kind), sensing: team.senses.sensing.clone() };
     let asked = |tick: u64| match tick {
         400 => vec![Request::TakeOver(pilot), Request::Steer { robot: pilot, pilot: levers(1.0) }],
         500 => vec![

@@ -67,13 +67,14 @@ fn spawn_parts(world: &mut World, start: &RobotStart) -> Entity {
 
 fn robot_start(world: &World, plan: &MatchPlan, id: RobotId) -> RobotStart {
     let team = plan.team(id.team);
+    let senses = team.senses(id.number);
     let placed = plan.situation.as_ref().and_then(|situation| situation.robots.get(&id));
     RobotStart {
         id,
         role: team.strategy.players[usize::from(id.number)],
         kind: team.kind.clone(),
-        sensing: team.sensing.clone(),
-        calibration: team.calibration.clone(),
+        sensing: senses.sensing.clone(),
+        calibration: senses.calibration.clone(),
         strategy: team.strategy.clone(),
         seed: Seed(plan.seed),
         clock: *world.resource::<Clock>(),

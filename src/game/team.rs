@@ -1,5 +1,6 @@
 //! One side of a match: what its files are, and the team that they come to.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::files::{checked, file_named};
 use super::line_up::LineUp;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, Validate};
+use crate::ids::PlayerNumber;
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::teamwork::TeamworkFile;
@@ -25,6 +27,9 @@ pub struct TeamFile {
     pub robot: String,
     /// The file of the robots' senses.
     pub sensing: String,
+    /// The files of the senses of robots that sense otherwise, by number.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub sensing_of: BTreeMap<PlayerNumber, String>,
     /// What differs from the strategy's own `teamwork`, field by field.
     #[serde(default)]
     pub teamwork: TeamworkFile,
@@ -48,7 +53,35 @@ impl TeamFile {
         for (kind, field, name) in others.into_iter().chain(with_strategy.then_some(strategy)) {
             file_named(assets, source, kind, (&format!("{side}.{field}"), name))?;
         }
-        Ok(())
+        self.sensing_of.iter().try_for_each(|(number, name)| {
+            let field = format!("{side}.sensing_of.{number}");
+            file_named(assets, source, AssetKind::Sensing, (&field, name)).map(drop)
+        })
+    }
+}
+
+/// What robots sense with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Senses {
+    /// How well.
+    pub sensing: Arc<Sensing>,
+    /// How the camera is calibrated, if they see by pictures.
+    pub calibration: Option<Arc<CameraCalibration>>,
+}
+
+impl Senses {
+    /// Reads a preset, and the calibration that it names, if it names one.
+    fn read(assets: &AssetFolder, name: &str) -> Result<Senses, DataError> {
+        let source = Source::read(assets.file(AssetKind::Sensing, name))?;
+        let sensing: Sensing = source.parse_sound()?;
+        let calibration = match sensing.eyes.calibration() {
+            Some(camera) => {
+                let file = file_named(assets, &source, AssetKind::Camera, ("eyes.calibration", camera))?;
+                Some(Arc::new(checked(&file)?))
+            }
+            None => None,
+        };
+        Ok(Senses { sensing: Arc::new(sensing), calibration })
     }
 }
 
@@ -68,9 +101,9 @@ pub struct TeamPlan {
     /// What its robots are built as.
     pub kind: Arc<RobotKind>,
     /// How well its robots sense.
-    pub sensing: Arc<Sensing>,
-    /// How their cameras are calibrated, if they see by pictures.
-    pub calibration: Option<Arc<CameraCalibration>>,
+    pub senses: Senses,
+    /// Those of robots that sense otherwise, by number.
+    pub senses_of: BTreeMap<PlayerNumber, Senses>,
 }
 
 impl TeamPlan {
@@ -85,18 +118,30 @@ impl TeamPlan {
         let at = Field::root().key(side).key("teamwork");
         let change = TeamworkChange { teamwork: names.teamwork.clone(), source: source.clone(), at };
         let reading = read_strategy(assets, names, &change, &kind, (pitch, ball));
-        let sensing: Sensing = checked(&assets.file(AssetKind::Sensing, &names.sensing))?;
-        let calibration = read_calibration(assets, (&names.sensing, &sensing))?;
+        let strategy = reading.strategy?;
+        if let Some(number) =
+            names.sensing_of.keys().find(|number| usize::from(**number) >= strategy.players.len())
+        {
+            let field = Field::root().key(side).key("sensing_of").key(number.to_string());
+            return Err(source
+                .error_at(&field, format!("the team has {} players, from 0 on", strategy.players.len())));
+        }
+        let others = names.sensing_of.iter().map(|(number, name)| Ok((*number, Senses::read(assets, name)?)));
         Ok(TeamPlan {
-            strategy: Arc::new(reading.strategy?),
+            senses: Senses::read(assets, &names.sensing)?,
+            senses_of: others.collect::<Result<_, DataError>>()?,
+            strategy: Arc::new(strategy),
             strategy_files: reading.files,
             teamwork_change: change,
             kind: Arc::new(kind),
-            sensing: Arc::new(sensing),
-            calibration: calibration.map(Arc::new),
             names: names.clone(),
             roles: Vec::new(),
         })
+    }
+
+    /// What a robot senses with.
+    pub fn senses(&self, number: PlayerNumber) -> &Senses {
+        self.senses_of.get(&number).unwrap_or(&self.senses)
     }
 
     /// Gives players other roles at kick-off than the strategy does, by number.
@@ -108,16 +153,6 @@ impl TeamPlan {
         self.roles = roles;
         Ok(())
     }
-}
-
-/// The calibration that a sensing preset names, if it names one.
-fn read_calibration(
-    assets: &AssetFolder,
-    (name, sensing): (&str, &Sensing),
-) -> Result<Option<CameraCalibration>, DataError> {
-    let Some(camera) = sensing.eyes.calibration() else { return Ok(None) };
-    let source = Source::read(assets.file(AssetKind::Sensing, name))?;
-    checked(&file_named(assets, &source, AssetKind::Camera, ("eyes.calibration", camera))?).map(Some)
 }
 
 /// Reads a team's strategy, which must be one for its robots and for the pitch.

@@ -207,7 +207,7 @@ fn calibration() -> CameraCalibration {
 #[test]
 fn a_running_camera_is_set_and_its_colours_are_cut_otherwise() {
     let mut plan = talkative(1.0);
-    plan.teams[0].calibration = Some(Arc::new(calibration()));
+    plan.teams[0].senses.calibration = Some(Arc::new(calibration()));
     let (mut game, plan) = open_to(plan, &[]);
     game.world_mut().insert_resource(RequestLog::default());
     let mut manager = Manager::of(&plan, HOME_1, 0.1);

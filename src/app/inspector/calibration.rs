@@ -170,7 +170,7 @@ mod tests {
         let choice = Choice { file: Some(file.into()), ..Choice::default() };
         let plan = MatchPlan::read(&assets, &choice).expect("the match is sound");
         let team = plan.team(Team::Home);
-        RobotValues::of(&team.kind, &team.sensing)
+        RobotValues::of(&team.kind, &team.senses.sensing)
     }
 
     #[test]

@@ -42,6 +42,7 @@ impl Introduction {
     /// What a match is for one of its robots, and the robot for its match.
     pub fn new(plan: &MatchPlan, robot: RobotId, session: u32) -> Introduction {
         let team = plan.team(robot.team);
+        let sensing = &team.senses(robot.number).sensing;
         let rate = (1.0 / Clock::default().dt).to_string();
         let particulars = vec![
             Particular::named("robot", robot.to_string()),
@@ -52,7 +53,7 @@ impl Introduction {
             Particular::of("ball", "", &plan.ball),
             Particular::of(&format!("strategy of {}", robot.team), &team.strategy.name, &team.strategy),
             Particular::of("kind of robot", &team.kind.name, &team.kind),
-            Particular::of("sensing", &team.sensing.name, &team.sensing),
+            Particular::of("sensing", &sensing.name, sensing),
             Particular::of("set-up of the team communication", "", &plan.tcm),
         ];
         Introduction { protocol: PROTOCOL, version: env!("CARGO_PKG_VERSION").into(), session, particulars }
@@ -138,7 +139,7 @@ mod tests {
                 Arc::make_mut(&mut plan.teams[0].strategy).teamwork.talk.claim_every += 0.1
             }),
             ("kind of robot", |plan| Arc::make_mut(&mut plan.teams[0].kind).control_hz += 1.0),
-            ("sensing", |plan| Arc::make_mut(&mut plan.teams[0].sensing).memory.ball += 0.1),
+            ("sensing", |plan| Arc::make_mut(&mut plan.teams[0].senses.sensing).memory.ball += 0.1),
             ("set-up of the team communication", |plan| plan.tcm.messages_per_tick += 1),
         ];
         for (what, change) in changes {

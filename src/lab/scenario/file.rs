@@ -179,6 +179,7 @@ impl SideFile {
             teamwork: self.teamwork.clone(),
             robot: self.robot.clone().unwrap_or_else(|| "cye".into()),
             sensing: self.sensing.clone().unwrap_or_else(|| "perfect".into()),
+            sensing_of: BTreeMap::new(),
             team_number: None,
         })
     }

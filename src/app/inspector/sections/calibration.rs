@@ -21,7 +21,7 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut Panel
         _ => None,
     });
     let mut values = pending.shown();
-    let file = actions.file.map(|team| RobotValues::of(&team.kind, &team.sensing));
+    let file = actions.file.map(|team| RobotValues::of(&team.kind, &team.senses(robot.id.number).sensing));
     let mut file = file.unwrap_or_else(|| values.clone());
     let before = values.clone();
     ui.horizontal(|ui| {
@@ -87,7 +87,7 @@ mod tests {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         let plan = MatchPlan::read(&assets, &Choice::default()).expect("the default match");
         let team = plan.team(Team::Home);
-        let mut file = RobotValues::of(&team.kind, &team.sensing);
+        let mut file = RobotValues::of(&team.kind, &team.senses.sensing);
         let mut values = file.clone();
         let knob = KNOBS.iter().find(|knob| knob.name == "top speed").expect("wheels have one");
         if let Some(value) = (knob.at)(&mut values) {
