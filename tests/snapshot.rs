@@ -1,5 +1,7 @@
 //! A match that is put back to an earlier tick, or into another world, plays on as it did.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::*;
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::rng::{Dice, Seed};
@@ -44,10 +46,8 @@ fn finish(game: &mut Match) -> u64 {
 fn check(plan: &MatchPlan) {
     let mut game = Match::new(plan);
     let mut dice = Dice::new(Seed(plan.seed), "looks", None);
-    let halves = 2.0 * plan.rules.half_minutes;
-    let looks = (LOOKS as f32 * halves / (2.0 * HALF)).ceil() as usize;
-    let most = halves * 60.0 * 60.0;
-    let mut ticks: Vec<u64> = (0..looks).map(|_| (dice.uniform() * most) as u64).collect();
+    let most = 2.0 * HALF * 60.0 * 60.0;
+    let mut ticks: Vec<u64> = (0..LOOKS).map(|_| (dice.uniform() * most) as u64).collect();
     ticks.sort_unstable();
     let mut snapshots = Vec::new();
     for tick in ticks {
@@ -100,9 +100,15 @@ fn dogs_that_chase_the_ball_play_on_from_any_tick() {
 }
 
 #[test]
-fn dogs_that_see_by_pictures_play_on_from_any_tick() {
+fn a_dog_that_sees_by_pictures_plays_on_from_any_tick() {
     let mut plan = plan("four_legged_images", "good", "chaos_b3p", "chaos_b3p");
-    plan.rules.half_minutes = 0.05;
+    // Pictures take their time: one robot sees by them, and it goes for the ball.
+    let of_model = self::plan("four_legged_2005", "good", "chaos_b3p", "chaos_b3p").teams[0].senses.clone();
+    let of_pictures = plan.teams[0].senses.clone();
+    for team in &mut plan.teams {
+        (team.senses, team.senses_of) = (of_model.clone(), BTreeMap::new());
+    }
+    plan.teams[0].senses_of.insert(2, of_pictures);
     check(&plan);
 }
 

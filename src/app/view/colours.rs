@@ -22,10 +22,10 @@ pub const STRIPE: Color = rgb(0x33_86_4C);
 pub const FENCE: Color = rgb(0x6E_76_72);
 /// Lines, walls and penalty spots.
 pub const CHALK: Color = rgb(0xF1_F1_EA);
-/// The goal that the west team defends.
-pub const WEST_GOAL: Color = rgb(0x2F_6F_DE);
-/// The goal that the east team defends.
-pub const EAST_GOAL: Color = rgb(0xF2_C2_30);
+/// The goal in the east, as cameras see it too.
+pub const BLUE_GOAL: Color = rgb(0x2F_6F_DE);
+/// The goal in the west, as cameras see it too.
+pub const YELLOW_GOAL: Color = rgb(0xF2_C2_30);
 /// The body of a robot.
 pub const ROBOT: Color = rgb(0x1B_1D_22);
 /// The head of a robot that has a neck: pale, so that one sees where it looks.
@@ -105,7 +105,7 @@ pub const fn schema(kind: SchemaKind) -> Color {
 pub const fn class(class: ColourClass) -> Color {
     match class {
         ColourClass::Orange => BALL,
-        ColourClass::Yellow => EAST_GOAL,
+        ColourClass::Yellow => YELLOW_GOAL,
         ColourClass::SkyBlue => rgb(0x56_B4_F2),
         ColourClass::Pink => rgb(0xFF_7F_BF),
         ColourClass::Red => rgb(0xD8_2F_2F),

@@ -27,7 +27,7 @@ pub fn paint_picture(painter: &Painter, rect: Rect, picture: Picture) {
     match picture {
         Picture::Play => {
             let goal = Rect::from_min_max(at(0.93, 0.2), at(1.0, 0.8));
-            painter.rect_filled(goal, 0.0, paint(colours::EAST_GOAL));
+            painter.rect_filled(goal, 0.0, paint(colours::YELLOW_GOAL));
             painter.vline(goal.left(), rect.y_range(), chalk);
             painter.circle_stroke(at(0.36, 0.55), 30.0, Stroke::new(3.0, paint(colours::PILOT)));
             robot(&painter, at(0.36, 0.55), 0.18, Team::Home);

@@ -52,8 +52,8 @@ fn draw_pitch(
     let carpet = half + pitch.margin();
     draw(colours::CARPET, height::GROUND + 0.1, stripes(carpet, 0));
     draw(colours::STRIPE, height::GROUND + 0.1, stripes(carpet, 1));
-    draw(colours::WEST_GOAL, height::GROUND + 0.3, vec![goal(&pitch, -1.0)]);
-    draw(colours::EAST_GOAL, height::GROUND + 0.3, vec![goal(&pitch, 1.0)]);
+    draw(colours::YELLOW_GOAL, height::GROUND + 0.3, vec![goal(&pitch, -1.0)]);
+    draw(colours::BLUE_GOAL, height::GROUND + 0.3, vec![goal(&pitch, 1.0)]);
     draw(colours::CHALK, height::LINES, lines(&pitch));
 }
 
