@@ -36,7 +36,7 @@ pub(super) struct Watcher {
     eyesight: &'static mut Eyesight,
 }
 
-type Bodies = (&'static RobotId, &'static Robot, &'static Pose, &'static Head);
+type PaintedBody = (&'static RobotId, &'static Robot, &'static Pose, &'static Head);
 
 /// All that pictures show.
 #[derive(SystemParam)]
@@ -44,7 +44,7 @@ pub(super) struct Subjects<'w, 's> {
     pitch: Res<'w, Pitch>,
     kind: Res<'w, BallKind>,
     ball: Single<'w, 's, &'static Pose, With<Ball>>,
-    bodies: Query<'w, 's, Bodies, Without<OffPitch>>,
+    bodies: Query<'w, 's, PaintedBody, Without<OffPitch>>,
     trailers: Query<'w, 's, (&'static Trailer, &'static Pose)>,
 }
 
