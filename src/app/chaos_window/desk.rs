@@ -112,7 +112,11 @@ impl ChaosDesk {
 
     fn show_camera(&mut self, ui: &mut egui::Ui) {
         let Some(calibration) = self.robot.calibration() else {
-            ui.weak(format!("{} has not said how its camera is calibrated.", self.robot.id));
+            let id = self.robot.id;
+            ui.weak(match self.robot.is_blind {
+                true => format!("{id} sees without pictures."),
+                false => format!("{id} has not said how its camera is calibrated."),
+            });
             return;
         };
         let picture = self.robot.picture.as_ref();

@@ -29,8 +29,7 @@ const PATIENCE: Duration = Duration::from_secs(3);
 const SILENT: Duration = Duration::from_secs(1);
 
 /// Opens the window on a link to a robot, and returns how it ended.
-pub fn open_chaos_window(mut link: ChaosLink, assets: &AssetFolder, game: Option<KnownMatch>) -> WindowEnd {
-    link.subscribe(WANTED);
+pub fn open_chaos_window(link: ChaosLink, assets: &AssetFolder, game: Option<KnownMatch>) -> WindowEnd {
     let desk = ChaosDesk::new(RobotElsewhere::new(link.robot()), assets.clone(), game);
     let mut app = App::new();
     app.add_plugins((default_plugins("Touchline: ChaosManager"), EguiPlugin::default(), style::plugin));
@@ -54,6 +53,8 @@ struct ChaosManager {
 
 fn talk(mut chaos: ResMut<ChaosManager>) {
     let ChaosManager { link, desk, trouble } = &mut *chaos;
+    let images_hz = if desk.robot.is_blind { 0.0 } else { WANTED.images_hz };
+    link.subscribe(Subscription { images_hz, ..WANTED });
     desk.robot.send(|instruction| link.order(instruction, PATIENCE));
     link.steer(desk.pilot());
     match link.poll(Duration::ZERO) {

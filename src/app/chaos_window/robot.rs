@@ -1,9 +1,12 @@
 //! What is known here of a robot elsewhere, and what is wanted of it. Pure.
 
 use super::orders::OrderLine;
-use crate::game::net::chaos::{CameraData, ChaosNews, DebugData, Instruction, StrategyText};
+use crate::game::net::chaos::{CameraData, ChaosNews, DebugData, Instruction, Refusal, StrategyText};
 use crate::ids::RobotId;
 use crate::vision::{CameraCalibration, CameraSettings, ColourTable, Gaze, Image};
+
+/// What is refused by a robot that sees without pictures when pictures are wanted.
+const SUBSCRIPTION: &str = "subscription";
 
 /// A robot elsewhere.
 #[derive(Clone, Debug)]
@@ -13,6 +16,8 @@ pub struct RobotElsewhere {
     pub picture: Option<(Image, Gaze)>,
     /// What it last said of itself.
     pub debug: Option<DebugData>,
+    /// Whether it sees without pictures, so that only its data can be had.
+    pub is_blind: bool,
     /// What became of the last order or file, and whether it went well.
     pub told: Option<(bool, String)>,
     in_force: Option<CameraCalibration>,
@@ -28,6 +33,7 @@ impl RobotElsewhere {
             id,
             picture: None,
             debug: None,
+            is_blind: false,
             told: None,
             in_force: None,
             settings: OrderLine::default(),
@@ -75,6 +81,7 @@ impl RobotElsewhere {
             ChaosNews::Camera(CameraData { calibration, .. }) => self.in_force = Some(calibration),
             ChaosNews::Debug(data) => self.debug = Some(*data),
             ChaosNews::Accepted(number) => self.accept(number),
+            ChaosNews::Refused(_, Refusal { what, .. }) if what == SUBSCRIPTION => self.is_blind = true,
             ChaosNews::Refused(number, refusal) => {
                 self.give_up(number);
                 let what = refusal.what;
@@ -108,7 +115,7 @@ impl RobotElsewhere {
 mod tests {
     use super::*;
     use crate::app::inspector::vision::samples;
-    use crate::game::net::chaos::Refusal;
+    use crate::game::net::chaos::{ChaosOrder, Subscription};
     use crate::ids::Team;
 
     const ROBOT: RobotId = RobotId::new(Team::Home, 1);
@@ -144,6 +151,15 @@ mod tests {
         assert_eq!(robot.calibration(), Some(left));
         let told = "home 1 refuses the colour table: it has none";
         assert_eq!(robot.told, Some((false, told.to_owned())));
+    }
+
+    #[test]
+    fn a_robot_that_refuses_pictures_sees_without_them() {
+        let mut robot = RobotElsewhere::new(ROBOT);
+        let subscribe = Instruction::Subscribe(Subscription { images_hz: 1.0, data_hz: 1.0 });
+        let what = ChaosOrder { number: 1, instruction: subscribe }.what().to_owned();
+        robot.hear(ChaosNews::Refused(1, Refusal { what, why: "it has no camera".into() }));
+        assert!(robot.is_blind && robot.told.is_none());
     }
 
     #[test]
