@@ -77,6 +77,13 @@ struct Sockets {
     chaos: Option<ChaosSockets>,
 }
 
+impl Sockets {
+    fn is_any_open(&self) -> bool {
+        let Sockets { referee_box, announcer, remote, chaos } = self;
+        referee_box.is_some() || announcer.is_some() || remote.is_some() || chaos.is_some()
+    }
+}
+
 /// Makes a match ready to be played as its plan says, with sockets or with the recorded requests of a match that had them.
 pub(super) fn prepare(world: &mut World, plan: &MatchPlan) {
     let wanted = &plan.network;
@@ -138,7 +145,7 @@ fn open_all(world: &mut World, plan: &MatchPlan) -> Result<(), NetworkError> {
     if let Some(host) = wanted.league_ports {
         world.insert_resource(LeaguePorts::open(host, numbers)?);
     }
-    if sockets.referee_box.is_some() || sockets.announcer.is_some() || sockets.remote.is_some() {
+    if sockets.is_any_open() {
         world.insert_resource(sockets);
     }
     Ok(())
