@@ -2,7 +2,7 @@
 
 use bevy::math::{DMat3, DVec3, Vec2};
 
-use super::{FilterErrors, LEAST_RANGE, PoseDeviation, SeenLandmark};
+use super::sightings::{FilterErrors, LEAST_RANGE, PoseDeviation, SeenLandmark};
 use crate::geometry::{Pose, Sighting, wrap_angle};
 
 /// The mean and the covariance of x, y and heading.
@@ -14,18 +14,18 @@ pub(super) struct Estimate {
 
 /// A landmark of one frame, with the deviations of its range and bearing, m and rad.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
+pub(super) struct LandmarkReading {
     pub seen: SeenLandmark,
     deviations: (f32, f32),
     /// How much of it is new, 0 to 1.
     news: f64,
 }
 
-impl Reading {
-    pub fn new(seen: SeenLandmark, bearing: f32, news: f32) -> Reading {
+impl LandmarkReading {
+    pub fn new(seen: SeenLandmark, bearing: f32, news: f32) -> LandmarkReading {
         let news = if news.is_nan() { 1.0 } else { news.clamp(0.0, 1.0) };
         let deviations = (seen.range_deviation.max(LEAST_RANGE), bearing.max(LEAST_BEARING));
-        Reading { seen, deviations, news: f64::from(news) }
+        LandmarkReading { seen, deviations, news: f64::from(news) }
     }
 }
 
@@ -89,8 +89,8 @@ impl Estimate {
     }
 
     /// Whether a landmark is about where it should be seen.
-    pub fn expects(&self, reading: &Reading) -> bool {
-        let Some(row) = Rows::of(self.pose, reading) else { return false };
+    pub fn expects(&self, reading: &LandmarkReading) -> bool {
+        let Some(row) = SightingRows::of(self.pose, reading) else { return false };
         let [range, bearing] = [row.range, row.bearing];
         // The covariance of both innovations, in units of their measurement's deviation.
         let a = range.dot(self.covariance * range) + 1.0;
@@ -102,7 +102,7 @@ impl Estimate {
     }
 
     /// The most likely pose, given this estimate and the landmarks of one frame.
-    pub fn corrected(self, readings: &[Reading]) -> Option<Estimate> {
+    pub fn corrected(self, readings: &[LandmarkReading]) -> Option<Estimate> {
         if readings.is_empty() {
             return Some(self);
         }
@@ -115,7 +115,7 @@ impl Estimate {
             let mut information = prior;
             let mut pull = prior * DVec3::new(f64::from(off.x), f64::from(off.y), f64::from(turn));
             for reading in readings {
-                let Some(row) = Rows::of(pose, reading) else { continue };
+                let Some(row) = SightingRows::of(pose, reading) else { continue };
                 information += (outer(row.range) + outer(row.bearing)) * reading.news;
                 pull += (row.range * row.off.0 + row.bearing * row.off.1) * reading.news;
             }
@@ -145,22 +145,22 @@ fn outer(v: DVec3) -> DMat3 {
 
 /// How a landmark's range and bearing change with the pose, and how far both are off what they should be: all in units of the
 /// measurement's standard deviation.
-struct Rows {
+struct SightingRows {
     range: DVec3,
     bearing: DVec3,
     off: (f64, f64),
 }
 
-impl Rows {
-    fn of(pose: Pose, reading: &Reading) -> Option<Rows> {
-        let Reading { seen, deviations: (deep, across), .. } = *reading;
+impl SightingRows {
+    fn of(pose: Pose, reading: &LandmarkReading) -> Option<SightingRows> {
+        let LandmarkReading { seen, deviations: (deep, across), .. } = *reading;
         let expected = Sighting::of(seen.place, pose);
         // A range that is measured too short is no better for it.
         let deep = deep * (expected.range / seen.sighting.range).max(1.0).powi(2);
         let offset = seen.place - pose.position;
         let range = expected.range;
         let way = offset / range;
-        let rows = Rows {
+        let rows = SightingRows {
             range: DVec3::new(f64::from(-way.x), f64::from(-way.y), 0.0) / f64::from(deep),
             bearing: DVec3::new(f64::from(way.y / range), f64::from(-way.x / range), -1.0)
                 / f64::from(across),

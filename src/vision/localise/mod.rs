@@ -7,53 +7,20 @@
 
 mod estimate;
 mod resection;
+mod sightings;
 #[cfg(test)]
 mod tests;
 
 use std::collections::VecDeque;
-use std::f32::consts::PI;
 
 use bevy::math::Vec2;
 
-use estimate::{Estimate, Reading};
+use estimate::{Estimate, LandmarkReading};
 use resection::{Bearings, locate};
+use sightings::LEAST_RANGE;
+pub use sightings::{FilterErrors, PoseDeviation, SeenLandmark};
 
 use crate::geometry::{Pose, Sighting, wrap_angle};
-
-/// A landmark that a picture shows: where it stands in the robot's frame of the field, m, and how it was seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SeenLandmark {
-    /// m
-    pub place: Vec2,
-    /// How the robot's body has it.
-    pub sighting: Sighting,
-    /// Standard deviation of its range, m.
-    pub range_deviation: f32,
-}
-
-/// Standard deviations of a pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PoseDeviation {
-    /// Of each coordinate, m.
-    pub place: f32,
-    /// rad
-    pub heading: f32,
-}
-
-/// What the filter takes odometry and sightings to be wrong by: standard deviations.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilterErrors {
-    /// Of a bearing, rad.
-    pub bearing: f32,
-    /// How long the error of one landmark lasts, s: frames that follow each other sooner err alike.
-    pub lasting: f32,
-    /// Of odometry, after one metre; grows with the root of the way, m.
-    pub way: f32,
-    /// Of odometry, after one metre; grows with the root of the way, rad.
-    pub turn: f32,
-    /// What pushes and slips that nobody feels move a robot by in a second; grows with the root of the time.
-    pub unfelt: PoseDeviation,
-}
 
 /// A robot's own idea of where it is.
 #[derive(Clone, Debug)]
@@ -65,14 +32,14 @@ pub struct PoseFilter {
     /// The odometry of the last ticks, oldest first.
     past: VecDeque<(u64, Pose)>,
     /// The landmarks of the last seconds, each place once.
-    known: Vec<Remembered>,
+    known: Vec<RememberedLandmark>,
     /// Landmarks that have contradicted the estimate more often than others have agreed with it.
     doubts: f32,
 }
 
 /// A landmark that was seen a while ago.
 #[derive(Clone, Copy, Debug)]
-struct Remembered {
+struct RememberedLandmark {
     place: Vec2,
     /// Where it was seen, in the frame of the odometry, m.
     seen: Vec2,
@@ -81,8 +48,6 @@ struct Remembered {
     tick: u64,
 }
 
-/// No landmark is measured better, m.
-const LEAST_RANGE: f32 = 0.005;
 /// Sightings nearer or farther than this are none, m.
 const RANGES: std::ops::Range<f32> = 0.05..50.0;
 /// Ticks of odometry that are kept: two seconds, which no latency should exceed.
@@ -138,7 +103,7 @@ impl PoseFilter {
         self.estimate = self.estimate.and_then(|estimate| estimate.moved(self.at.1, now, time, errors));
         self.at = (taken, now);
         let seen = seen.iter().filter(|seen| RANGES.contains(&seen.sighting.range) && seen.is_sound());
-        let readings: Vec<Reading> = seen.map(|seen| self.reading(seen, errors, dt)).collect();
+        let readings: Vec<LandmarkReading> = seen.map(|seen| self.reading(seen, errors, dt)).collect();
         self.remember(&readings, dt);
         match self.estimate {
             Some(estimate) => self.correct(estimate, &readings, errors),
@@ -147,14 +112,14 @@ impl PoseFilter {
     }
 
     /// A landmark as the estimate takes it in. Errors of one landmark last: what it tells soon after it was seen is hardly new.
-    fn reading(&self, seen: &SeenLandmark, errors: &FilterErrors, dt: f32) -> Reading {
+    fn reading(&self, seen: &SeenLandmark, errors: &FilterErrors, dt: f32) -> LandmarkReading {
         let known = self.known.iter().find(|known| known.place == seen.place);
         let news = known.map_or(1.0, |known| (self.at.0 - known.tick) as f32 * dt / errors.lasting);
-        Reading::new(*seen, errors.bearing, news)
+        LandmarkReading::new(*seen, errors.bearing, news)
     }
 
-    fn correct(&mut self, estimate: Estimate, readings: &[Reading], errors: &FilterErrors) {
-        let fitting: Vec<Reading> =
+    fn correct(&mut self, estimate: Estimate, readings: &[LandmarkReading], errors: &FilterErrors) {
+        let fitting: Vec<LandmarkReading> =
             readings.iter().filter(|reading| estimate.expects(reading)).copied().collect();
         let contradicting = readings.len() - fitting.len();
         self.doubts = (self.doubts + contradicting as f32 - fitting.len() as f32).clamp(0.0, DOUBTS);
@@ -180,7 +145,7 @@ impl PoseFilter {
         };
         let here = self.at.1;
         let reading = |index: usize| self.known[index].reading(here, errors);
-        let fitting: Vec<Reading> = fitting.into_iter().map(reading).collect();
+        let fitting: Vec<LandmarkReading> = fitting.into_iter().map(reading).collect();
         let expects = |estimate: Estimate| fitting.iter().all(|reading| estimate.expects(reading));
         if self.estimate.is_some_and(expects) {
             self.doubts = 0.0;
@@ -196,13 +161,13 @@ impl PoseFilter {
     }
 
     /// Keeps where landmarks were seen, each place once, for a while.
-    fn remember(&mut self, readings: &[Reading], dt: f32) {
+    fn remember(&mut self, readings: &[LandmarkReading], dt: f32) {
         let (tick, odometry) = self.at;
         self.known.retain(|known| {
             let is_renewed = readings.iter().any(|reading| reading.seen.place == known.place);
             !is_renewed && (tick - known.tick) as f32 * dt <= MEMORY
         });
-        self.known.extend(readings.iter().map(|reading| Remembered {
+        self.known.extend(readings.iter().map(|reading| RememberedLandmark {
             place: reading.seen.place,
             seen: reading.seen.sighting.placed(odometry),
             range: reading.seen.sighting.range,
@@ -257,17 +222,11 @@ impl PoseFilter {
     }
 }
 
-impl Remembered {
+impl RememberedLandmark {
     /// The landmark as a robot has it whose odometry is this.
-    fn reading(&self, odometry: Pose, errors: &FilterErrors) -> Reading {
+    fn reading(&self, odometry: Pose, errors: &FilterErrors) -> LandmarkReading {
         let sighting = Sighting::of(self.seen, odometry);
         let seen = SeenLandmark { place: self.place, sighting, range_deviation: self.range_deviation };
-        Reading::new(seen, errors.bearing, 1.0)
-    }
-}
-
-impl SeenLandmark {
-    fn is_sound(&self) -> bool {
-        self.place.is_finite() && self.sighting.bearing.abs() <= PI && self.range_deviation.is_finite()
+        LandmarkReading::new(seen, errors.bearing, 1.0)
     }
 }
