@@ -8,11 +8,11 @@ use bevy::prelude::*;
 use serde::Serialize;
 
 use super::drivers::Drivers;
-use super::messages::{CameraData, ChaosOrder, ImageData, Instruction, OrderAnswer, Refusal};
+use super::messages::{CameraData, ChaosOrder, Instruction, OrderAnswer, Refusal};
 use super::orders::{Answered, play_strategy, set_camera, set_colours, with_camera};
 use super::outbox::{Outbox, OutboxFigures};
 use super::plan::ChaosPlan;
-use super::robot_data::{RobotView, debug_data};
+use super::robot_data::{RobotView, debug_data, image_data};
 use super::subscribers::Subscribers;
 use super::table::ChaosSocket;
 use crate::clock::Clock;
@@ -25,7 +25,6 @@ use crate::game::net::timing::DATAGRAMS_A_TICK;
 use crate::game::requests::{Request, Requests};
 use crate::ids::RobotId;
 use crate::strategy::Strategies;
-use crate::vision::{Gaze, Image};
 
 /// Pictures that wait, and the datagrams of pictures in a tick: some 3.3 MB/s, or thirty AIBO's pictures.
 const IMAGES: (usize, usize) = (4, 40);
@@ -68,14 +67,6 @@ pub struct OrderFigures {
     pub malformed: u64,
     /// Orders of which a part did not arrive in time.
     pub expired: u64,
-}
-
-/// The last picture of a robot.
-pub(super) struct LastImage<'a> {
-    pub image: &'a Image,
-    pub gaze: Gaze,
-    /// When it was taken.
-    pub tick: u64,
 }
 
 /// The three sockets and what is known of those who speak through them.
@@ -235,7 +226,7 @@ impl ChaosSockets {
     ) -> Result<Vec<Request>, String> {
         let mut robots = world.query::<RobotView>();
         let found = robots.iter(world).find(|(id, ..)| **id == robot);
-        let Some((_, _, _, camera, is_driven)) = found else {
+        let Some((.., camera, _, is_driven)) = found else {
             return Err(format!("there is no robot `{robot}` in this match"));
         };
         let has_camera = camera.is_some();
@@ -260,13 +251,13 @@ impl ChaosSockets {
         let tick = clock.tick;
         for subscriber in self.subscribers.iter_mut() {
             let (robot, at) = (subscriber.robot, subscriber.at);
-            let Some((_, mind, intents, camera, is_driven)) =
+            let Some((_, mind, intents, camera, eyes, is_driven)) =
                 robots.iter(world).find(|(id, ..)| **id == robot)
             else {
                 continue;
             };
             if let Some(number) = subscriber.next_data(tick) {
-                let data = debug_data(robot, mind, intents, is_driven, (strategies, clock, number));
+                let data = debug_data(robot, mind, intents, eyes, is_driven, (strategies, clock, number));
                 self.data.put(&data, robot, at);
             }
             if subscriber.hears_calibration(tick)
@@ -275,16 +266,10 @@ impl ChaosSockets {
                 let calibration = camera.0.as_ref().clone();
                 self.data.put(&CameraData { tick, calibration }, robot, at);
             }
-            if let Some(LastImage { image, gaze, tick: taken }) = image_of(world, robot)
-                && let Some(number) = subscriber.next_image(taken, tick)
-            {
-                self.images.put(&ImageData::of(image, gaze, taken, number), robot, at);
+            let image = eyes.and_then(|eyes| image_data(eyes, |taken| subscriber.next_image(taken, tick)));
+            if let Some(image) = image {
+                self.images.put(&image, robot, at);
             }
         }
     }
-}
-
-/// The last picture of a robot, if it sees by pictures.
-fn image_of(_: &World, _: RobotId) -> Option<LastImage<'_>> {
-    None
 }
