@@ -10,7 +10,7 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 
 use super::ball_filter::{BallFilter, roll_on};
-use super::progress::{Progress, Step};
+use super::progress::{Progress, WayReported};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
@@ -146,7 +146,7 @@ impl WorldModel {
             self.pose =
                 Pose { position: self.pose.to_field(way), heading: wrap_angle(self.pose.heading + turn) };
             let time = self.past.back().map_or(0.0, |(tick, _)| clock.seconds_since(*tick));
-            self.progress.felt(Step { told: odometry.told, way: way.length(), turn, time }, clock);
+            self.progress.felt(WayReported { told: odometry.told, way: way.length(), turn, time }, clock);
         }
         self.past.push_back((clock.tick, self.pose));
         if self.past.len() > PAST {

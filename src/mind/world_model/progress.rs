@@ -37,7 +37,7 @@ pub(super) struct Progress {
 
 /// What wheels or legs have done since the last decision.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct WayReported {
     /// The fastest that they are told to move, m/s.
     pub told: f32,
     /// m
@@ -55,7 +55,7 @@ impl Progress {
     }
 
     /// Takes in what wheels or legs report.
-    pub fn felt(&mut self, step: Step, clock: &Clock) {
+    pub fn felt(&mut self, step: WayReported, clock: &Clock) {
         if step.told <= TOLD {
             *self = Progress::default();
             return;
@@ -119,7 +119,8 @@ mod tests {
                 self.clock.tick += 2;
                 let time = 2.0 / 60.0;
                 self.place.x += share * SPEED * time;
-                self.progress.felt(Step { told: SPEED, way: SPEED * time, turn: 0.0, time }, &self.clock);
+                self.progress
+                    .felt(WayReported { told: SPEED, way: SPEED * time, turn: 0.0, time }, &self.clock);
                 let way = |from: u64, to: u64| Vec2::X * (SPEED * (to - from) as f32 / 60.0);
                 if let Some(landmarks) = landmarks {
                     self.progress.saw((self.clock.tick, self.place), landmarks, way, &self.clock);
@@ -134,7 +135,7 @@ mod tests {
         for _ in 0..(20.0 * seconds).round() as usize {
             clock.tick += 3;
             let time = 3.0 / 60.0;
-            progress.felt(Step { told, way: way * time, turn: turn * time, time }, &clock);
+            progress.felt(WayReported { told, way: way * time, turn: turn * time, time }, &clock);
         }
         progress.stalled_for(&clock)
     }
@@ -171,7 +172,7 @@ mod tests {
     fn who_is_told_to_rest_is_not_stalled() {
         let mut walk = Walk::new();
         walk.on(2.0, 0.0, Some(1.0));
-        walk.progress.felt(Step { told: 0.0, way: 0.0, turn: 0.0, time: 0.05 }, &walk.clock);
+        walk.progress.felt(WayReported { told: 0.0, way: 0.0, turn: 0.0, time: 0.05 }, &walk.clock);
         assert_eq!(walk.progress.stalled_for(&walk.clock), 0.0);
     }
 }

@@ -142,7 +142,7 @@ impl ImageEyes {
     /// Takes a picture and recognises what it shows.
     fn recognise(
         &mut self,
-        sight: &Sight,
+        sight: &ImageSight,
         shot: &Shot,
         camera: &Arc<CameraCalibration>,
         dice: &mut Dice,
@@ -192,7 +192,7 @@ impl ImageMemory {
     pub(super) fn look(
         &mut self,
         eyes: &mut ImageEyes,
-        sight: &Sight,
+        sight: &ImageSight,
         shot: &Shot,
         camera: &Arc<CameraCalibration>,
     ) -> Frame {
@@ -211,7 +211,7 @@ impl ImageMemory {
     }
 
     /// Where the robot takes itself to be, after what it recognised.
-    fn find_place(&mut self, sight: &Sight, landmarks: &[LandmarkSighting]) -> Option<Fix> {
+    fn find_place(&mut self, sight: &ImageSight, landmarks: &[LandmarkSighting]) -> Option<Fix> {
         let place = |seen: &LandmarkSighting| {
             let place = sight.ends.turn(seen.landmark.place(sight.pitch)?);
             Some(SeenLandmark { place, sighting: seen.sighting, range_deviation: seen.range_deviation })
@@ -229,7 +229,7 @@ impl ImageMemory {
 }
 
 /// What one robot's look is taken of, and when.
-pub(super) struct Sight<'a> {
+pub(super) struct ImageSight<'a> {
     pub hall: &'a Hall,
     pub known: &'a KnownObjects,
     pub moment: &'a Moment,

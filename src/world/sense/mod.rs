@@ -2,15 +2,8 @@
 //!
 //! A camera takes frames at its own rate, each arrives after its latency. The wheels report at every tick.
 
-use crate::robot::Camera;
-use crate::robot::Eyes;
-use crate::robot::Fix;
-use crate::robot::Frame;
-use crate::robot::Localisation;
-use crate::robot::Percepts;
-use crate::robot::Sensing;
-
 mod camera;
+mod eyesight;
 mod images;
 mod landmarks;
 mod localisation;
@@ -20,11 +13,10 @@ mod shutter;
 #[cfg(test)]
 mod tests;
 
+pub use eyesight::Eyesight;
 pub use images::{HallLight, ImageEyes, ImageMemory, LastLook, PictureHall};
 pub use picture::{Light, LightDrift, Lighting};
 pub use shutter::robot_paint;
-
-use std::collections::VecDeque;
 
 use bevy::prelude::*;
 use smallvec::SmallVec;
@@ -38,9 +30,12 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::ids::RobotId;
 use crate::pitch::{BallKind, Pitch};
-use crate::rng::{Dice, Seed};
+use crate::rng::Dice;
 use crate::robot::handling::Handling;
-use crate::robot::{Head, Misled, OffPitch, PutDown, Robot, RobotStart, SwitchedOn, Trailer};
+use crate::robot::{
+    Camera, Eyes, Fix, Frame, Head, Localisation, Misled, OffPitch, Percepts, PutDown, Robot, RobotStart,
+    SwitchedOn, Trailer,
+};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
 use crate::world::ball::Ball;
@@ -56,50 +51,6 @@ pub(super) fn plugin(app: &mut App) {
     let in_order =
         (take_frames, read_odometry, shutter::drift_light, shutter::take_pictures, deliver_frames).chain();
     app.add_systems(Tick, in_order.in_set(TickSystems::Sense));
-}
-
-/// A robot's eyes, with the errors and the frames that are under way inside them.
-#[derive(Component, Clone, Debug)]
-pub struct Eyesight {
-    error: PoseError,
-    /// What a script adds to the error, in the pitch frame.
-    misled: PoseError,
-    under_way: VecDeque<Frame>,
-    camera_dice: Dice,
-    identity_dice: Dice,
-    localisation_dice: Dice,
-}
-
-impl Eyesight {
-    /// The camera of a robot that has seen nothing.
-    pub fn new(sensing: &Sensing, seed: Seed, robot: RobotId) -> Eyesight {
-        let mut localisation_dice = Dice::new(seed, "localisation", Some(robot));
-        let error = match &sensing.eyes {
-            Eyes::Perfect | Eyes::Images { .. } => PoseError::default(),
-            Eyes::Real { localisation, .. } => PoseError::drawn(localisation, &mut localisation_dice),
-        };
-        Eyesight {
-            error,
-            misled: PoseError::default(),
-            under_way: VecDeque::new(),
-            camera_dice: Dice::new(seed, "camera", Some(robot)),
-            identity_dice: Dice::new(seed, "identity", Some(robot)),
-            localisation_dice,
-        }
-    }
-
-    /// Forgets the frames under way, as when people carry the robot elsewhere.
-    fn blink(&mut self) {
-        self.under_way.clear();
-    }
-
-    /// What a robot takes its pose to be that people put down here.
-    fn put_down(&mut self, truth: Pose, sensing: &Sensing) -> Pose {
-        match sensing.eyes {
-            Eyes::Perfect => truth,
-            _ => PoseError::of_hands(sensing.eyes.put_down(), &mut self.localisation_dice).applied(truth),
-        }
-    }
 }
 
 /// What a robot takes its pose in the team frame to be that people have put down, if it is a robot.

@@ -4,8 +4,8 @@ use bevy::ecs::query::QueryData;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 
-use super::Eyesight;
-use super::images::{HallLight, ImageEyes, ImageMemory, PictureHall, Sight};
+use super::eyesight::Eyesight;
+use super::images::{HallLight, ImageEyes, ImageMemory, ImageSight, PictureHall};
 use super::picture::{Moment, Shot};
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
@@ -102,7 +102,7 @@ pub(super) fn take_pictures(
             turn_rate: twist.angular + memory.pan_rate(head.pan, &clock),
             hides_ball: handling.hides_ball(),
         };
-        let sight = Sight {
+        let sight = ImageSight {
             hall,
             known,
             moment: &moment,

@@ -15,6 +15,7 @@ use super::*;
 use crate::data::Source;
 use crate::geometry::Twist;
 use crate::ids::Team::{Away, Home};
+use crate::rng::Seed;
 use crate::robot::{DriveCommand, OdometryNoise, OdometrySource, PlaceError, RobotKind, WheelSpeeds};
 use crate::testing::{BALL, LANDMARKS, cye, pitch};
 use crate::world::referee::RuleBook;
