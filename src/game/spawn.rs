@@ -87,8 +87,7 @@ fn robot_start(world: &World, plan: &MatchPlan, id: RobotId) -> RobotStart {
 
 fn spawn_trailer(world: &mut World, kind: &TrailerKind, start: &RobotStart, unit: Entity) -> Option<Entity> {
     let outline = Collider::from(trailer_shape(kind)?);
-    let middle = kind.outline.iter().sum::<Vec2>() / kind.outline.len() as f32;
-    let radius = kind.outline.iter().map(|corner| corner.distance(middle)).fold(0.0, f32::max);
+    let (middle, radius) = kind.round();
     let hitch = TypedJoint::RevoluteJoint(RevoluteJointBuilder::new().build());
     let mut joint = ImpulseJoint::new(unit, hitch);
     joint.data.as_mut().set_contacts_enabled(false);

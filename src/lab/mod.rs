@@ -1,4 +1,6 @@
-//! What gives evidence: scenarios that show what a team does, and check it; duels that measure how much a few robots are worth.
+//! What gives evidence: scenarios that show what a team does, and check it; duels that measure how much a few robots are worth;
+//! cameras by whose pictures the fast model of eyes is fitted.
 
 pub mod duel;
+pub mod eyes;
 pub mod scenario;

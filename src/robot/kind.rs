@@ -207,6 +207,14 @@ impl Validate for DifferentialDrive {
     }
 }
 
+impl TrailerKind {
+    /// The middle of its outline as seen from the hitch, and the radius around that middle that holds it, m.
+    pub fn round(&self) -> (Vec2, f32) {
+        let middle = self.outline.iter().sum::<Vec2>() / self.outline.len() as f32;
+        (middle, self.outline.iter().map(|corner| corner.distance(middle)).fold(0.0, f32::max))
+    }
+}
+
 impl Validate for TrailerKind {
     fn validate(&self) -> Result<(), Fault> {
         check_all([

@@ -20,7 +20,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("world", &["data", "pitch", "robot", "vision"]),
     ("mind", &["comms", "pitch", "protocol", "robot", "strategy"]),
     ("game", &["comms", "data", "mind", "pitch", "protocol", "robot", "strategy", "vision", "world"]),
-    ("lab", &["comms", "data", "game", "mind", "pitch", "protocol", "robot", "strategy", "world"]),
+    ("lab", &["comms", "data", "game", "mind", "pitch", "protocol", "robot", "strategy", "vision", "world"]),
     (
         "app",
         &[

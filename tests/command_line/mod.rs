@@ -1,6 +1,7 @@
 //! The program as a person or a script calls it.
 
 mod duel;
+mod fit_eyes;
 #[cfg(unix)]
 mod interrupt;
 mod options;

@@ -5,6 +5,7 @@ mod chaos;
 mod check;
 mod duel;
 mod ending;
+mod fit_eyes;
 mod interrupt;
 mod kinds;
 mod options;
@@ -47,6 +48,9 @@ enum CliCommand {
     /// Let a few robots of two strategies fight for a free ball, many times, and print the share that each side wins.
     #[command(after_help = EXIT_CODES)]
     Duel(duel::DuelCommand),
+    /// Take pictures of random moments with a calibrated camera, and print the numbers of the fast model of eyes that fit them.
+    #[command(after_help = EXIT_CODES)]
+    FitEyes(fit_eyes::FitEyesCommand),
     /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
     #[command(after_help = EXIT_CODES)]
     Robot(robot::RobotCommand),
@@ -85,6 +89,7 @@ impl Cli {
             Some(CliCommand::Play(play)) => play.run(&assets, &mut out),
             Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
+            Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),
             Some(CliCommand::Chaos(chaos)) => chaos.run(&assets, &mut out),
             Some(CliCommand::Check(check)) => check.run(&assets, &mut out),

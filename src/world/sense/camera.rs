@@ -14,7 +14,9 @@ use crate::robot::Camera;
 /// A thing that the camera may see or that may hide another, as seen from the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blob {
+    /// m
     pub range: f32,
+    /// rad, counter-clockwise from where the camera looks.
     pub bearing: f32,
     /// Half of the angle that it covers, rad.
     pub half_angle: f32,

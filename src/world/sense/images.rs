@@ -252,7 +252,7 @@ const SURE: f32 = 0.3;
 const LOW: f32 = 0.5;
 
 /// By how much a camera looks down to keep a ball in its pictures, rad.
-fn nod(optics: &Optics, ball: Option<Sighting>) -> f32 {
+pub fn nod(optics: &Optics, ball: Option<Sighting>) -> f32 {
     let (rest, most) = (optics.tilt.to_radians(), optics.nod.to_radians());
     let Some(ball) = ball else { return rest };
     let half_height = ops::atan(optics.height as f32 / 2.0 / optics.focal_length(optics.width));

@@ -13,15 +13,16 @@ mod shutter;
 #[cfg(test)]
 mod tests;
 
+pub use camera::{Blob, detection, visible_share};
 pub use eyesight::Eyesight;
-pub use images::{HallLight, ImageEyes, ImageMemory, LastLook, PictureHall};
+pub use images::{HallLight, ImageEyes, ImageMemory, LastLook, PictureHall, nod};
 pub use picture::{Light, LightDrift, Lighting};
 pub use shutter::robot_paint;
 
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use camera::{Blob, look};
+use camera::look;
 use landmarks::{View, fix_share};
 use localisation::PoseError;
 use odometry::read_odometry;
