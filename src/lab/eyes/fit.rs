@@ -3,9 +3,6 @@
 use crate::robot::Camera;
 use crate::world::sense::detection;
 
-/// A thing in full view at this range, m, and whether it was recognised.
-pub(super) type Look = (f32, bool);
-
 /// The chance that a frame shows what is near, and the end of the range at which it falls to 0.3 of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
@@ -18,8 +15,9 @@ const BIN: f32 = 0.1;
 /// Something is taken for a thing at any range with this chance, and missed with it: without that one freak would rule out a fit.
 const FREAK: f64 = 0.01;
 
-/// The most likely detection and range, by trying all: nothing, if nothing was looked at. Ranges up to `most` metres.
-pub(super) fn reach(looks: &[Look], most: f32, camera: &Camera) -> Option<Reach> {
+/// The most likely detection and range, by trying all: nothing, if nothing was looked at. Looks are at things in full view: their range,
+/// m, and whether they were recognised. Ranges up to `most` metres.
+pub(super) fn reach(looks: &[(f32, bool)], most: f32, camera: &Camera) -> Option<Reach> {
     let mut bins = vec![[0_u32; 2]; (most / BIN) as usize + 1];
     for &(range, seen) in looks {
         let bin = bins.get_mut((range / BIN) as usize);
@@ -134,7 +132,7 @@ mod tests {
     #[test]
     fn looks_by_the_fast_model_give_its_detection_and_range_back() {
         let mut dice = Dice::new(Seed(3), "test", None);
-        let looks: Vec<Look> = (0..6000)
+        let looks: Vec<(f32, bool)> = (0..6000)
             .map(|_| {
                 let range = 4.0 * dice.uniform();
                 (range, dice.chance(detection(&CAMERA, range, CAMERA.ball_range)))

@@ -79,7 +79,7 @@ impl EyesPlan {
             }
         }
         let numbers = numbers(&self.fast, &studio.readings, self.farthest());
-        EyesReport::new(numbers, self.names(), (views, &self.choice))
+        EyesReport::new(numbers, self.names(), (views, self.choice.seed), views < self.choice.views)
     }
 
     /// Of the model and of the camera.

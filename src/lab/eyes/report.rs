@@ -5,7 +5,6 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use super::fit::{least_share, range_errors, reach, root_mean_square, share};
-use super::plan::EyesChoice;
 use super::readings::{Look, Readings};
 use crate::data::in_one_line;
 use crate::geometry::wrap_angle;
@@ -48,9 +47,10 @@ impl EyesReport {
     pub(super) fn new(
         numbers: Vec<FittedNumber>,
         [eyes, camera]: [String; 2],
-        (views, choice): (u32, &EyesChoice),
+        (views, seed): (u32, u64),
+        interrupted: bool,
     ) -> EyesReport {
-        EyesReport { eyes, camera, numbers, views, seed: choice.seed, interrupted: views < choice.views }
+        EyesReport { eyes, camera, numbers, views, seed, interrupted }
     }
 }
 
