@@ -93,7 +93,6 @@ impl Film {
         (image.width, image.height) = (width, height);
         image.pixels.resize(width * height, Yuv::default());
         self.row.fit(width);
-        self.blurred.resize(width + 2, 0);
         self.mix(exposure);
         let smear = (exposure.smear.round() as usize).min(width);
         for row in 0..height {
@@ -131,7 +130,9 @@ impl Film {
         let out = y.iter_mut().zip(noise).zip(colours);
         let lens = glass.light[span.clone()].iter().zip(&glass.shift[span.clone()]);
         for ((tone, (light, shift)), ((y, noise), (u, v))) in raster.tones()[span].iter().zip(lens).zip(out) {
-            let [bright, blue, red, deviation] = self.palette[tone.darkened(*light).index()].parts();
+            let [bright, blue, red, deviation] =
+                self.palette[tone.darkened(u16::from(*light)).index()].parts();
+            let shift = i16::from(*shift);
             (*y, *u, *v, *noise) = (bright, blue + shift, red - shift / 2, deviation);
         }
         for colour in [u, v] {
@@ -145,8 +146,7 @@ impl Film {
         let Channels { y, u, v, .. } = &mut self.row;
         let width = y.len();
         for channel in [&mut y[..], &mut u[1..=width], &mut v[1..=width]] {
-            self.blurred[..width].copy_from_slice(channel);
-            smear(&self.blurred[..width], channel, length);
+            smear(channel, length, &mut self.blurred);
         }
     }
 
@@ -154,12 +154,13 @@ impl Film {
     fn fix(&mut self, pixels: &mut [Yuv], start: usize) {
         let Channels { y, u, v, noise } = &mut self.row;
         let width = y.len();
+        self.blurred.resize(width, 0);
         let [of_y, of_u, of_v] = [0, 1, 2].map(|channel| &self.noise[channel][start..start + width]);
         for ((y, noise), random) in y.iter_mut().zip(&*noise).zip(of_y) {
             *y = (*y + ((random * noise) >> 9)).clamp(0, 255);
         }
         for (colour, of_colour) in [(u, of_u), (v, of_v)] {
-            let mixed = &mut self.blurred[..width];
+            let mixed = &mut self.blurred;
             let neighbours = colour.iter().zip(&colour[1..]).zip(&colour[2..]);
             for (((mixed, ((left, middle), right)), noise), random) in
                 mixed.iter_mut().zip(neighbours).zip(&*noise).zip(of_colour)
@@ -184,16 +185,19 @@ impl Channels {
     }
 }
 
-/// The mean of so many neighbours for each pixel, with the last one of a row repeated beyond its ends.
-fn smear(from: &[i16], to: &mut [i16], length: usize) {
-    let last = from.len() - 1;
-    let before = length / 2;
+/// Replaces each pixel of a row by the mean of so many neighbours, with the last one of the row repeated beyond its ends.
+fn smear(row: &mut [i16], length: usize, room: &mut Vec<i16>) {
+    let &mut [first, .., last] = row else { return };
+    let (before, after) = (length / 2, length - length / 2);
+    room.clear();
+    room.resize(before, first);
+    room.extend_from_slice(row);
+    room.resize(before + row.len() + after, last);
     let share = (1 << 16) / length as i32;
-    let at = |place: usize| i32::from(from[place.saturating_sub(before).min(last)]);
-    let mut sum: i32 = (0..length).map(at).sum();
-    for (index, value) in to.iter_mut().enumerate() {
+    let mut sum: i32 = room[..length].iter().copied().map(i32::from).sum();
+    for ((value, enters), leaves) in row.iter_mut().zip(&room[length..]).zip(&*room) {
         *value = ((sum * share + (1 << 15)) >> 16) as i16;
-        sum += at(index + length) - at(index);
+        sum += i32::from(enters - leaves);
     }
 }
 
@@ -230,9 +234,8 @@ mod tests {
 
     #[test]
     fn a_smeared_row_keeps_its_mean_and_spreads_an_edge_over_the_length() {
-        let edge: Vec<i16> = (0..40).map(|index| if index < 20 { 50 } else { 150 }).collect();
-        let mut out = vec![0; 40];
-        smear(&edge, &mut out, 8);
+        let mut out: Vec<i16> = (0..40).map(|index| if index < 20 { 50 } else { 150 }).collect();
+        smear(&mut out, 8, &mut Vec::new());
         assert_eq!(out.iter().filter(|value| (51..=149).contains(*value)).count(), 7);
         assert_eq!((out[0], out[39]), (50, 150));
         assert!(out.windows(2).all(|pair| pair[0] <= pair[1]));

@@ -5,9 +5,9 @@
 pub struct Glass {
     size: (usize, usize),
     /// 256ths of the light.
-    pub light: Vec<u16>,
+    pub light: Vec<u8>,
     /// Added to blue against brightness, and half of it taken from red.
-    pub shift: Vec<i16>,
+    pub shift: Vec<i8>,
 }
 
 /// What a corner lacks of the light of the middle. ASSUMPTION.
@@ -29,8 +29,8 @@ impl Glass {
         };
         self.size = size;
         self.light =
-            (0..width * height).map(|index| (256.0 * (1.0 - FALL_OFF * share(index))) as u16).collect();
-        self.shift = (0..width * height).map(|index| (SHIFT * share(index)).round() as i16).collect();
+            (0..width * height).map(|index| (256.0 * (1.0 - FALL_OFF * share(index))) as u8).collect();
+        self.shift = (0..width * height).map(|index| (SHIFT * share(index)).round() as i8).collect();
     }
 }
 
