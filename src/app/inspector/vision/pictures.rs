@@ -232,10 +232,16 @@ fn free_place(picture: Rect, around: Rect, size: Vec2, taken: &[Rect]) -> Rect {
     let lowest = (picture.bottom() - size.y).max(picture.top());
     let wanted = (around.top() - 2.0 - size.y).clamp(picture.top(), lowest);
     let at = |top: f32| Rect::from_min_size(pos2(left, top), size);
-    let is_free = |place: &Rect| !taken.iter().any(|other| other.intersects(*place));
+    let is_free = |place: &Rect| !taken.iter().any(|other| overlap(*other, *place));
     let steps = (0..=40).flat_map(|step| [-step, step]).map(|step| wanted + step as f32 * size.y / 2.0);
     let within = steps.filter(|top| (picture.top()..=lowest).contains(top));
     within.map(at).find(is_free).unwrap_or(at(wanted))
+}
+
+/// Whether two places have more than an edge in common.
+fn overlap(a: Rect, b: Rect) -> bool {
+    let common = a.intersect(b);
+    common.width() > 0.5 && common.height() > 0.5
 }
 
 #[cfg(test)]
@@ -261,7 +267,7 @@ mod tests {
         let mut taken: Vec<Rect> = Vec::new();
         for _ in 0..8 {
             let place = free_place(picture, thing, vec2(90.0, 16.0), &taken);
-            assert!(picture.contains_rect(place) && !taken.iter().any(|other| other.intersects(place)));
+            assert!(picture.contains_rect(place) && !taken.iter().any(|other| overlap(*other, place)));
             taken.push(place);
         }
         assert_eq!((taken[0].bottom(), taken[0].center().x), (118.0, 190.0));
