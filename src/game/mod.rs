@@ -21,7 +21,7 @@ pub use play::Match;
 pub use situation::{Placed, Situation};
 pub use start::{start_match, start_mind};
 pub(crate) use team::read_strategy_alone;
-pub use team::{TeamFile, TeamPlan};
+pub use team::{Senses, TeamFile, TeamPlan};
 
 use crate::{comms, mind, pitch, robot, schedule, world};
 

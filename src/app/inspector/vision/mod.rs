@@ -172,6 +172,6 @@ fn asked_light(in_force: &Lighting, requests: &Requests) -> Lighting {
 
 /// What the file says of a robot's camera, and its name.
 fn filed(session: &Session, robot: RobotId) -> Option<(String, Arc<CameraCalibration>)> {
-    let team = session.plan.as_ref()?.team(robot.team);
-    Some((team.sensing.eyes.calibration()?.to_owned(), team.calibration.clone()?))
+    let senses = session.plan.as_ref()?.team(robot.team).senses(robot.number);
+    Some((senses.sensing.eyes.calibration()?.to_owned(), senses.calibration.clone()?))
 }

@@ -7,8 +7,8 @@ use super::files;
 use super::history::CameraValues;
 use super::view::CalibrationWish;
 use crate::data::{AssetFolder, AssetKind};
-use crate::game::MatchPlan;
 use crate::game::requests::{Request, Requests, RobotChange};
+use crate::game::{MatchPlan, Senses};
 use crate::ids::{RobotId, Team};
 use crate::vision::CameraCalibration;
 
@@ -65,19 +65,26 @@ impl CameraWishes<'_> {
     /// All robots whose preset names a file that was written play on with it; who they are, in words.
     fn play_on_with(&mut self, path: &Path, robots: &[RobotId]) -> String {
         let calibration = Arc::new(self.calibration.clone());
-        let mut teams = Vec::new();
+        let assets = self.assets;
+        let is_named = |senses: &Senses| {
+            let named = senses.sensing.eyes.calibration();
+            named.is_some_and(|name| assets.file(AssetKind::Camera, name) == path)
+        };
+        let mut named = Vec::new();
         if let Some(plan) = self.plan.as_deref_mut() {
-            for team in Team::BOTH {
-                let named = plan.team(team).sensing.eyes.calibration();
-                if named.is_some_and(|name| self.assets.file(AssetKind::Camera, name) == path) {
-                    plan.teams[team.index()].calibration = Some(calibration.clone());
-                    teams.push(team);
-                }
+            for team in &mut plan.teams {
+                let all = std::iter::once(&mut team.senses).chain(team.senses_of.values_mut());
+                all.filter(|senses| is_named(senses))
+                    .for_each(|senses| senses.calibration = Some(calibration.clone()));
             }
+            let is_of_file = |robot: &RobotId| is_named(plan.team(robot.team).senses(robot.number));
+            named.extend(robots.iter().copied().filter(is_of_file));
         }
-        for robot in robots.iter().filter(|robot| teams.contains(&robot.team)) {
+        for robot in &named {
             self.set(*robot, CameraValues::of(&calibration));
         }
+        let teams: Vec<Team> =
+            Team::BOTH.into_iter().filter(|team| named.iter().any(|robot| robot.team == *team)).collect();
         let file = path.display();
         match teams.as_slice() {
             [] => format!("Saved {file}, which no preset of this match names"),
@@ -121,7 +128,7 @@ mod tests {
         assert!(told.is_some_and(|(well, words)| well && words.contains("both teams play on")));
         let saved = files::load(&assets, "cye_2001").expect("it is there");
         for team in Team::BOTH {
-            assert_eq!(plan.team(team).calibration.as_deref(), Some(&saved));
+            assert_eq!(plan.team(team).senses.calibration.as_deref(), Some(&saved));
         }
         let asked: Vec<&Request> = requests.iter().collect();
         for robot in [HOME, AWAY] {
