@@ -14,16 +14,20 @@ use touchline::game::net::chaos::{
 };
 use touchline::game::net::{self, NetworkPlan};
 use touchline::game::requests::{Request, RequestLog, RobotChange};
-use touchline::game::{Match, MatchPlan};
+use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::rng::{Dice, Seed};
 use touchline::robot::pilot::Pilot;
 use touchline::strategy::Strategies;
-use touchline::vision::{CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Optics};
+use touchline::vision::{
+    CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Gaze, Image, Optics,
+};
+use touchline::world::referee::Phase;
+use touchline::world::sense::{ImageEyes, ImageMemory};
 
 use super::recorded::{again, log_of};
 use super::{HOME_0, HOME_1, open, stranger, talkative};
-use crate::support::{digest_of, strategy_text};
+use crate::support::{assets, digest_of, robot, strategy_text};
 
 /// A match that ChaosManager may speak to from these addresses.
 fn open_to(plan: MatchPlan, from: &[IpAddr]) -> (Match, MatchPlan) {
@@ -39,6 +43,11 @@ fn sockets(plan: &MatchPlan) -> [SocketAddr; 3] {
 
 fn figures(game: &Match) -> ChaosFigures {
     net::chaos_figures(game.world()).expect("the sockets are open")
+}
+
+/// The time of the match.
+fn now(game: &Match) -> Duration {
+    Duration::from_secs_f64(game.clock().now())
 }
 
 /// A ChaosManager whose datagrams get lost both ways, in match time.
@@ -63,13 +72,23 @@ impl Manager {
 
     /// Says what is to be said, plays a tick and hears what comes.
     fn tick(&mut self, game: &mut Match) -> Vec<ChaosNews> {
-        let now = Duration::from_secs_f64(game.clock().now());
-        for datagram in self.talk.due(now) {
+        self.say(game);
+        game.tick();
+        self.hear(game)
+    }
+
+    /// Says what is to be said.
+    fn say(&mut self, game: &Match) {
+        for datagram in self.talk.due(now(game)) {
             if !self.is_lost() {
                 self.socket.send_to(&datagram, self.talk.orders_to()).expect("it is sent");
             }
         }
-        game.tick();
+    }
+
+    /// What has come by now.
+    fn hear(&mut self, game: &Match) -> Vec<ChaosNews> {
+        let now = now(game);
         let (mut bytes, mut news) = ([0; 2000], Vec::new());
         while let Ok((length, from)) = self.socket.recv_from(&mut bytes) {
             if !self.is_lost() {
@@ -86,8 +105,7 @@ impl Manager {
 
     /// Gives an order and plays until it is answered or given up.
     fn give(&mut self, game: &mut Match, instruction: Instruction) -> ChaosNews {
-        let now = Duration::from_secs_f64(game.clock().now());
-        self.talk.order(instruction, now + Duration::from_secs(10));
+        self.talk.order(instruction, now(game) + Duration::from_secs(10));
         loop {
             let news = self.tick(game);
             let is_answer = |news: &ChaosNews| {
@@ -195,6 +213,131 @@ fn a_robot_tells_what_it_believes_is_in_and_wants_until_nobody_asks_any_more() {
         game.tick();
     }
     assert_eq!(game.record().digest, digest_of(&by_radio), "who looks changes nothing");
+}
+
+#[test]
+fn a_robot_is_driven_stops_when_the_link_breaks_and_goes_back_to_its_strategy() {
+    let (mut game, plan) = open_to(talkative(1.0), &[]);
+    game.world_mut().insert_resource(RequestLog::default());
+    let mut manager = Manager::of(&plan, HOME_1, 0.1);
+    manager.talk.subscribe(Subscription { images_hz: 0.0, data_hz: 10.0 });
+    while game.state().phase != Phase::Playing {
+        manager.tick(&mut game);
+    }
+    let spin = Pilot { turn: 1.0, ..Pilot::default() };
+    manager.talk.steer(Some(spin), now(&game));
+    let news = manager.ticks(&mut game, 240);
+    assert!(debug_data(&news).iter().any(|data| data.is_driven));
+    assert!(robot(&mut game, Team::Home, 1).1.angular.abs() > 0.5, "it turns");
+    // Whoever else wants to drive it is refused.
+    let mut other = Manager::of(&plan, HOME_1, 0.0);
+    other.talk.steer(Some(spin), now(&game));
+    let refused = other.ticks(&mut game, 2);
+    assert!(matches!(&refused[..], [ChaosNews::Refused(..)]), "{refused:?}");
+    // The link breaks.
+    (0..90).for_each(|_| game.tick());
+    assert!(robot(&mut game, Team::Home, 1).1.angular.abs() < 0.1, "it stands");
+    (0..300).for_each(|_| game.tick());
+    let RequestLog(requests) = log_of(&game);
+    let kinds: Vec<&Request> = requests.iter().map(|(_, request)| request).collect();
+    assert_eq!(kinds.first(), Some(&&Request::TakeOver(HOME_1)));
+    assert_eq!(kinds.last(), Some(&&Request::HandBack(HOME_1)));
+    let stop = Request::Steer { robot: HOME_1, pilot: Pilot::default() };
+    assert_eq!(kinds.iter().filter(|request| ***request == stop).count(), 1);
+    let ticks = game.clock().tick;
+    assert_eq!(again(&plan, &requests, ticks).record().digest, game.record().digest);
+    let without: Vec<_> = requests.iter().filter(|(_, request)| *request != stop).cloned().collect();
+    assert_ne!(again(&plan, &without, ticks).record().digest, game.record().digest);
+}
+
+/// AIBOs that see nothing but pictures, against each other.
+fn seeing(half_minutes: f32) -> MatchPlan {
+    let choice = Choice {
+        file: Some("four_legged_images".into()),
+        half_minutes: Some(half_minutes),
+        seed: 7,
+        ..Choice::default()
+    };
+    MatchPlan::read(&assets(), &choice).expect("the shipped files are sound")
+}
+
+#[test]
+fn pictures_cross_a_link_with_loss_whole_or_are_counted_as_missing() {
+    let (mut game, plan) = open_to(seeing(0.5), &[]);
+    let mut manager = Manager::of(&plan, HOME_1, 0.005);
+    manager.talk.subscribe(Subscription { images_hz: 10.0, data_hz: 5.0 });
+    let mut pictures: Vec<(u64, Gaze, Image)> = Vec::new();
+    for _ in 0..240 {
+        let news = manager.tick(&mut game);
+        let mut robots = game.world_mut().query::<(&RobotId, &ImageEyes, &ImageMemory)>();
+        let (_, eyes, memory) =
+            robots.iter(game.world()).find(|(id, ..)| **id == HOME_1).expect("it is in the match");
+        let last = memory.last().map(|last| (last.tick, last.gaze, eyes.image().clone()));
+        let before = pictures.last().map(|(tick, ..)| *tick);
+        pictures.extend(last.filter(|(tick, ..)| before != Some(*tick)));
+        for news in news {
+            let ChaosNews::Image(data) = news else { continue };
+            let taken = pictures.iter().find(|(tick, ..)| *tick == data.tick).expect("it was taken");
+            assert_eq!((data.gaze, data.image()), (taken.1, taken.2.clone()));
+        }
+    }
+    let (there, sent) = (manager.talk.figures().images, figures(&game).images);
+    assert!(there.received > 10 && there.missing > 3, "{there:?}");
+    // The last ones may still be under way or be known as missing with the next.
+    let known = there.received + there.missing;
+    assert!((sent.put_in - 4..=sent.put_in).contains(&known), "{there:?} {sent:?}");
+    assert_eq!((sent.dropped, sent.refused), (0, 0));
+    assert!(there.bytes > there.received * 208 * 160 * 3, "{there:?}");
+}
+
+#[test]
+fn more_pictures_than_a_link_takes_are_dropped_the_oldest_first_and_counted() {
+    let (mut game, plan) = open_to(seeing(0.5), &[]);
+    let robots: Vec<RobotId> = plan.robots().collect();
+    let mut managers: Vec<Manager> = robots.iter().map(|robot| Manager::of(&plan, *robot, 0.0)).collect();
+    for manager in &mut managers {
+        manager.talk.subscribe(Subscription { images_hz: 30.0, data_hz: 0.0 });
+    }
+    let mut before = 0;
+    for _ in 0..90 {
+        for manager in &mut managers[1..] {
+            manager.say(&game);
+        }
+        managers[0].tick(&mut game);
+        managers[1..].iter_mut().for_each(|manager| drop(manager.hear(&game)));
+        let datagrams = figures(&game).images.datagrams;
+        assert!(datagrams - before <= 40, "{} datagrams in a tick", datagrams - before);
+        before = datagrams;
+    }
+    let sent = figures(&game).images;
+    assert!(sent.dropped > sent.sent, "{sent:?}");
+    assert!(sent.put_in - sent.sent - sent.dropped <= 5, "four wait and one leaves: {sent:?}");
+    let whole: u64 = managers.iter().map(|manager| manager.talk.figures().images.received).sum();
+    assert_eq!(whole, sent.sent);
+}
+
+#[test]
+fn a_colour_table_that_is_sent_makes_a_robot_blind_and_the_match_replays() {
+    let (mut game, plan) = open_to(seeing(0.5), &[]);
+    game.world_mut().insert_resource(RequestLog::default());
+    let mut manager = Manager::of(&plan, HOME_1, 0.02);
+    manager.talk.subscribe(Subscription { images_hz: 0.0, data_hz: 10.0 });
+    let hits = |news: &[ChaosNews]| {
+        let of = |class| {
+            let quality = debug_data(news).into_iter().filter_map(move |data| data.quality);
+            quality.map(|quality| quality.class(class).hits).sum::<u64>()
+        };
+        ColourClass::ALL.map(of).into_iter().sum::<u64>()
+    };
+    let news = manager.ticks(&mut game, 60);
+    assert!(hits(&news) > 0);
+    let answer = manager.give(&mut game, Instruction::SetColours(ColourTable::default()));
+    assert!(matches!(answer, ChaosNews::Accepted(_)), "{answer:?}");
+    manager.ticks(&mut game, 10);
+    let news = manager.ticks(&mut game, 60);
+    assert_eq!(hits(&news), 0, "what is in no table is never seen");
+    let (RequestLog(requests), ticks) = (log_of(&game), game.clock().tick);
+    assert_eq!(again(&plan, &requests, ticks).record().digest, game.record().digest);
 }
 
 /// A camera that somebody has calibrated.
