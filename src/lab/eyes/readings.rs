@@ -6,8 +6,8 @@ use crate::ids::Team;
 /// What was recognised of all moments.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Readings {
-    pub balls: Vec<Look>,
-    pub robots: Vec<Look>,
+    pub balls: Vec<ComparedSighting>,
+    pub robots: Vec<ComparedSighting>,
     /// For each picture that does not show the ball as such: whether something else was taken for it.
     pub phantoms: Vec<bool>,
     /// For each robot that was recognised: whether it was taken for one of the other team.
@@ -16,7 +16,7 @@ pub(super) struct Readings {
 
 /// One thing that a camera may have seen.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Look {
+pub(super) struct ComparedSighting {
     /// Where it is.
     pub truth: Sighting,
     /// The share of it that is in the field of view and behind nothing, 0 to 1.
@@ -46,7 +46,7 @@ impl Readings {
     /// Takes note of where the ball was and where it was seen.
     pub fn note_ball(&mut self, truth: Sighting, visible: f32, seen: Option<Sighting>) {
         let own = seen.filter(|seen| is_of(*seen, truth));
-        self.balls.push(Look { truth, visible, seen: own });
+        self.balls.push(ComparedSighting { truth, visible, seen: own });
         if own.is_none() {
             self.phantoms.push(seen.is_some());
         }
@@ -65,7 +65,7 @@ impl Readings {
         }
         for (robot, matched) in robots.iter().zip(matched) {
             let seen = matched.map(|(_, sighting)| sighting);
-            self.robots.push(Look { truth: robot.truth, visible: robot.visible, seen });
+            self.robots.push(ComparedSighting { truth: robot.truth, visible: robot.visible, seen });
             self.mistaken.extend(matched.map(|(team, _)| team != robot.team));
         }
     }

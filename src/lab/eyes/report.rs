@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use super::fit::{least_share, range_errors, reach, root_mean_square, share};
-use super::readings::{Look, Readings};
+use super::readings::{ComparedSighting, Readings};
 use crate::data::in_one_line;
 use crate::geometry::wrap_angle;
 use crate::robot::Camera;
@@ -56,11 +56,13 @@ impl EyesReport {
 
 /// The numbers of a model that readings tell of; ranges up to `most` metres.
 pub(super) fn numbers(fast: &Camera, readings: &Readings, most: f32) -> Vec<FittedNumber> {
-    let whole =
-        |looks: &[Look]| -> Vec<Look> { looks.iter().filter(|look| look.visible > WHOLE).copied().collect() };
+    let whole = |looks: &[ComparedSighting]| -> Vec<ComparedSighting> {
+        looks.iter().filter(|look| look.visible > WHOLE).copied().collect()
+    };
     let (balls, robots) = (whole(&readings.balls), whole(&readings.robots));
-    let looks =
-        |of: &[Look]| of.iter().map(|look| (look.truth.range, look.seen.is_some())).collect::<Vec<_>>();
+    let looks = |of: &[ComparedSighting]| {
+        of.iter().map(|look| (look.truth.range, look.seen.is_some())).collect::<Vec<_>>()
+    };
     let of_ball = reach(&looks(&balls), most, fast);
     let of_robots = reach(&looks(&robots), most, fast);
     let errors: Vec<(f32, f32)> = (balls.iter())
