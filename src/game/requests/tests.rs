@@ -22,6 +22,7 @@ use crate::robot::pilot::Pilot;
 use crate::robot::{HeadIntent, KickIntent, Restart, SteeringIntent};
 use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::testing::{perfect_radio, strategy};
+use crate::world::sense::{HallLight, Light};
 
 /// Two schemas in one assemblage, one machine, two roles; the first one plays.
 const PIECES: &str = r#"
@@ -55,6 +56,7 @@ fn app() -> App {
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(Channel::new(Seed(1), perfect_radio()));
     app.insert_resource(Interference::default()).insert_resource(FaultRules::default());
+    app.insert_resource(HallLight::new(Light::default(), Seed(1)));
     app
 }
 

@@ -12,7 +12,7 @@ pub struct RangeEstimate {
 impl RangeEstimate {
     /// To a place so much farther, as the middle of a thing is whose near side was measured.
     pub fn beyond(self, depth: f32) -> RangeEstimate {
-        RangeEstimate { range: self.range + depth, ..self }
+        RangeEstimate { range: (self.range + depth).max(0.0), ..self }
     }
 
     /// The same range, less sure.

@@ -173,7 +173,7 @@ fn by_width(known: &KnownObjects, left: PostEnd, right: PostEnd) -> Option<[Post
     for ((post, slope), own) in [&mut a, &mut b].into_iter().zip(slopes).zip(variances) {
         let gain = own * slope / variance;
         post.estimate = RangeEstimate {
-            range: post.estimate.range + gain * error,
+            range: (post.estimate.range + gain * error).max(0.0),
             deviation: (own * (1.0 - gain * slope)).max(0.0).sqrt(),
         };
     }
