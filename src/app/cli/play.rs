@@ -19,7 +19,7 @@ use crate::rng::DEFAULT_SEED;
 pub(super) struct PlayCommand {
     /// A scenario: a name among the assets or a path, and `:VARIANT` behind it for another of its variants than the
     /// first; played with its first seed unless another is given, and with the ball at the first of its places.
-    #[arg(conflicts_with_all = ["TeamsOptions", "MatchOptions", "HostOptions", "pilot"])]
+    #[arg(conflicts_with_all = ["TeamsOptions", "addresses", "patience", "HostOptions", "pilot"])]
     scenario: Option<String>,
     #[command(flatten)]
     options: MatchOptions,
