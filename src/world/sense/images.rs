@@ -7,12 +7,13 @@ use std::sync::Arc;
 use bevy::math::ops;
 use bevy::prelude::*;
 
+use super::localisation::PoseError;
 use super::picture::{Canvas, Hall, Light, Moment, Shot};
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Sighting};
 use crate::pitch::{BallKind, Pitch};
 use crate::rng::{Dice, Seed};
-use crate::robot::{Fix, Frame, Misled, PlaceError, PutDown, Robot, RobotStart, SwitchedOn};
+use crate::robot::{Fix, Frame, PlaceError, PutDown, Robot, RobotStart, SwitchedOn};
 use crate::state::RegisterState;
 use crate::vision::localise::{FilterErrors, PoseDeviation, PoseFilter, SeenLandmark};
 use crate::vision::paint::RobotPaint;
@@ -31,8 +32,7 @@ pub(super) fn state(app: &mut App) {
                 memory.filter = PoseFilter::told(put.told, by_hand(robot.sensing.eyes.put_down()));
             }
         })
-        .on(|memory, _: &SwitchedOn, _| memory.filter = PoseFilter::lost())
-        .on(|memory, misled: &Misled, _| memory.misled = Pose { position: misled.by, heading: misled.turn });
+        .on(|memory, _: &SwitchedOn, _| memory.filter = PoseFilter::lost());
     // Pixels are drawn anew with the next frame.
     app.match_component_by::<ImageEyes, ()>(|_| (), |(), _| {}, |()| String::new())
         .may_start(|start: &RobotStart, _| start.calibration.is_some().then(ImageEyes::default));
@@ -107,8 +107,6 @@ pub struct ImageMemory {
     filter: PoseFilter,
     /// rad downwards
     tilt: f32,
-    /// What a script adds to the robot's place, in the pitch frame.
-    misled: Pose,
     dice: Dice,
 }
 
@@ -162,7 +160,7 @@ impl ImageMemory {
         let error = by_hand(start.sensing.eyes.put_down());
         let filter = start.told.map_or_else(PoseFilter::lost, |told| PoseFilter::told(told, error));
         let dice = Dice::new(start.seed, "picture", Some(start.id));
-        ImageMemory { last: None, filter, tilt, misled: Pose::default(), dice }
+        ImageMemory { last: None, filter, tilt, dice }
     }
 
     /// The last picture, and what the robot recognised in it. Nothing before the first one.
@@ -220,11 +218,8 @@ impl ImageMemory {
         self.filter.odometry(sight.tick, sight.odometry);
         self.filter.see(sight.tick, &seen, &sight.errors, sight.dt);
         let found = self.filter.pose_then().filter(|_| self.filter.share() >= SURE)?;
-        let misled = |pose: Pose| Pose {
-            position: pose.position + self.misled.position,
-            heading: pose.heading + self.misled.heading,
-        };
-        Some(Fix { pose: sight.ends.turn_pose(misled(sight.ends.turn_pose(found))), share: 1.0 })
+        let misled = sight.misled.applied(sight.ends.turn_pose(found));
+        Some(Fix { pose: sight.ends.turn_pose(misled), share: 1.0 })
     }
 }
 
@@ -242,6 +237,8 @@ pub(super) struct ImageSight<'a> {
     pub ends: Attacking,
     /// The pose of its odometry.
     pub odometry: Pose,
+    /// What a script adds to the robot's place, in the pitch frame.
+    pub misled: PoseError,
     pub errors: FilterErrors,
 }
 

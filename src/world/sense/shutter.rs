@@ -112,6 +112,7 @@ pub(super) fn take_pictures(
             dt: clock.dt,
             ends: state.attacking(id.team),
             odometry: odometry.pose,
+            misled: eyesight.misled,
             errors,
         };
         let frame = memory.look(&mut eyes, &sight, &shot, camera);
