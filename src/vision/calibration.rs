@@ -21,14 +21,6 @@ pub struct CameraCalibration {
     pub colours: ColourTable,
 }
 
-impl CameraCalibration {
-    /// Width and height of a picture, pixels.
-    pub fn picture_size(&self) -> (usize, usize) {
-        let step = self.settings.resolution.step();
-        (self.optics.width / step, self.optics.height / step)
-    }
-}
-
 impl Validate for CameraCalibration {
     fn validate(&self) -> Result<(), Fault> {
         self.optics.validate_as("optics")?;

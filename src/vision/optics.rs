@@ -3,6 +3,7 @@
 use bevy::math::{Vec2, Vec3, ops};
 use serde::{Deserialize, Serialize};
 
+use super::settings::Resolution;
 use crate::data::{Bound, Fault, Validate, check_all, check_count};
 use crate::geometry::{Sighting, angle};
 
@@ -34,6 +35,12 @@ pub struct Gaze {
 }
 
 impl Optics {
+    /// Width and height of a picture, pixels.
+    pub const fn picture_size(&self, resolution: Resolution) -> (usize, usize) {
+        let step = resolution.step();
+        (self.width / step, self.height / step)
+    }
+
     /// Distance from the lens to the picture, in pixels of a picture of this width.
     pub fn focal_length(&self, width: usize) -> f32 {
         width as f32 / 2.0 / ops::tan(self.field_of_view.to_radians() / 2.0)

@@ -16,8 +16,7 @@ mod tests;
 pub use camera::{Blob, detection, visible_share};
 pub use eyesight::Eyesight;
 pub use images::{HallLight, ImageEyes, ImageMemory, LastLook, PictureHall, nod};
-pub use picture::{Light, LightDrift, Lighting};
-pub use shutter::robot_paint;
+pub use picture::{Light, LightDrift, Lighting, robot_paint};
 
 use bevy::prelude::*;
 use smallvec::SmallVec;

@@ -6,13 +6,13 @@ use bevy::prelude::*;
 
 use super::eyesight::Eyesight;
 use super::images::{HallLight, ImageEyes, ImageMemory, ImageSight, PictureHall};
-use super::picture::{Moment, Shot};
+use super::picture::{Moment, Shot, robot_paint};
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::handling::Handling;
-use crate::robot::{CalibratedCamera, Drive, Head, Odometry, OffPitch, Robot, RobotKind, Trailer};
+use crate::robot::{CalibratedCamera, Head, Odometry, OffPitch, Robot, Trailer};
 use crate::vision::Gaze;
 use crate::vision::localise::{FilterErrors, PoseDeviation};
 use crate::vision::paint::RobotPaint;
@@ -137,14 +137,6 @@ impl Subjects<'_, '_> {
             let of_team = self.bodies.iter().find(|(id, ..)| id.team == team);
             of_team.map_or(RobotPaint::WALKER, |(_, robot, ..)| robot_paint(&robot.kind))
         })
-    }
-}
-
-/// How robots of a kind are painted.
-pub fn robot_paint(kind: &RobotKind) -> RobotPaint {
-    match kind.drive {
-        Drive::Walker(_) => RobotPaint::WALKER,
-        Drive::Differential(_) => RobotPaint::WHEELED,
     }
 }
 

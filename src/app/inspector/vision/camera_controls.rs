@@ -76,8 +76,7 @@ pub fn show(ui: &mut egui::Ui, optics: &Optics, file: &CameraSettings, settings:
     ui.horizontal(|ui| {
         name_of(ui, "resolution");
         for resolution in RESOLUTIONS {
-            let step = resolution.step();
-            let (width, height) = (optics.width / step, optics.height / step);
+            let (width, height) = optics.picture_size(resolution);
             let button =
                 ui.selectable_label(settings.resolution == resolution, format!("{width} × {height}"));
             if button.on_hover_text("Pixels of a picture").clicked() {

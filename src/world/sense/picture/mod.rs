@@ -24,5 +24,5 @@ mod tests;
 pub use canvas::Canvas;
 pub use hall::Hall;
 pub use light::{Light, LightDrift, Lighting};
-pub use moment::Moment;
+pub use moment::{Moment, robot_paint};
 pub use shot::Shot;

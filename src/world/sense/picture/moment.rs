@@ -62,8 +62,7 @@ impl Moment {
 
     /// Adds a robot that stands there, with its head turned to the left by so many radians, and its trailer, where it is.
     pub fn add(&mut self, robot: RobotId, kind: &RobotKind, pose: Pose, head: f32, trailer: Option<Pose>) {
-        let walks = matches!(kind.drive, Drive::Walker(_));
-        let paint = if walks { RobotPaint::WALKER } else { RobotPaint::WHEELED };
+        let paint = robot_paint(kind);
         let (body, marker) = (Material::body(paint.body), Material::of(ColourClass::marker(robot.team)));
         let looks = Looks { robot, paint, body, marker };
         let half = Vec2::new(kind.body.length, kind.body.width) / 2.0;
@@ -142,6 +141,14 @@ impl Moment {
                 .iter()
                 .for_each(|(beyond, left)| darken(&circle(at, radius * (0.9 + 5.0 * beyond)), *left));
         }
+    }
+}
+
+/// How robots of a kind are painted.
+pub fn robot_paint(kind: &RobotKind) -> RobotPaint {
+    match kind.drive {
+        Drive::Walker(_) => RobotPaint::WALKER,
+        Drive::Differential(_) => RobotPaint::WHEELED,
     }
 }
 

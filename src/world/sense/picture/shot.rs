@@ -31,8 +31,7 @@ const SHUTTER: f32 = 0.01;
 impl Shot {
     /// Width and height, pixels.
     pub fn size(&self) -> (usize, usize) {
-        let step = self.settings.resolution.step();
-        (self.optics.width / step, self.optics.height / step)
+        self.optics.picture_size(self.settings.resolution)
     }
 
     /// How long light falls on the sensor, s: never longer than a frame lasts.
