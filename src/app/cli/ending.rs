@@ -26,6 +26,13 @@ pub(super) enum Ending {
     OutputClosed = 141,
 }
 
+impl Ending {
+    /// That of something that was done, or that Ctrl-C ended.
+    pub fn of_run(interrupted: bool) -> Ending {
+        if interrupted { Ending::Interrupted } else { Ending::Done }
+    }
+}
+
 /// What the help says about exit codes.
 pub(super) const EXIT_CODES: &str = "\
 Exit codes:

@@ -4,10 +4,9 @@ use std::io::Write;
 
 use clap::Args;
 
-use super::ending::{CommandError, Ending, print_json};
-use super::interrupt::Interrupt;
+use super::ending::{CommandError, Ending};
 use super::options::SeedOption;
-use super::progress::progress_bar;
+use super::trials::run_trials;
 use crate::data::AssetFolder;
 use crate::lab::eyes::{EyesChoice, EyesPlan};
 
@@ -39,18 +38,7 @@ impl FitEyesCommand {
             seed: self.seed.of_match(),
         };
         let plan = EyesPlan::read(assets, &choice)?;
-        let interrupt = Interrupt::listen();
-        let bar = progress_bar(plan.views().into(), "{bar:40} {pos}/{len} pictures, {eta} left");
-        let report = plan.run(|over| {
-            bar.set_position(over.into());
-            !interrupt.is_asked()
-        });
-        bar.finish_and_clear();
-        if self.json {
-            print_json(&report, out)?;
-        } else {
-            writeln!(out, "{report}")?;
-        }
-        Ok(if report.interrupted { Ending::Interrupted } else { Ending::Done })
+        let report = run_trials((plan.views(), "pictures"), self.json, out, |goes_on| plan.run(goes_on))?;
+        Ok(Ending::of_run(report.interrupted))
     }
 }

@@ -15,6 +15,7 @@ mod progress;
 mod robot;
 mod run;
 mod run_report;
+mod trials;
 mod windows;
 
 use std::io::{self, Write};

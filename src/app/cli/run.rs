@@ -60,7 +60,7 @@ pub(super) fn play_headless(
     } else {
         report.print(out)?;
     }
-    Ok(if report.interrupted { Ending::Interrupted } else { Ending::Done })
+    Ok(Ending::of_run(report.interrupted))
 }
 
 fn play_on(
