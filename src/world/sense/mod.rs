@@ -48,8 +48,8 @@ pub(super) fn plugin(app: &mut App) {
         .on(|eyesight, _: &SwitchedOn, _| eyesight.blink())
         .on(|eyesight, misled: &Misled, _| eyesight.misled = PoseError::of(misled.by, misled.turn));
     images::state(app);
-    let in_order =
-        (take_frames, read_odometry, shutter::drift_light, shutter::take_pictures, deliver_frames).chain();
+    let pictures = shutter::take_pictures.run_if(any_with_component::<ImageEyes>);
+    let in_order = (take_frames, read_odometry, shutter::drift_light, pictures, deliver_frames).chain();
     app.add_systems(Tick, in_order.in_set(TickSystems::Sense));
 }
 
