@@ -1,9 +1,10 @@
 //! ChaosManager and a match, over links that lose datagrams.
 
+mod pictures;
+mod program;
+
 use std::net::{IpAddr, SocketAddr, UdpSocket};
-use std::process::{Command, Output};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use touchline::comms::tcm::fragments::{USUAL_DATAGRAM, cut};
@@ -14,20 +15,17 @@ use touchline::game::net::chaos::{
 };
 use touchline::game::net::{self, NetworkPlan};
 use touchline::game::requests::{Request, RequestLog, RobotChange};
-use touchline::game::{Choice, Match, MatchPlan};
+use touchline::game::{Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
 use touchline::rng::{Dice, Seed};
 use touchline::robot::pilot::Pilot;
 use touchline::strategy::Strategies;
-use touchline::vision::{
-    CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Gaze, Image, Optics,
-};
+use touchline::vision::{CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Optics};
 use touchline::world::referee::Phase;
-use touchline::world::sense::{ImageEyes, ImageMemory};
 
 use super::recorded::{again, log_of};
 use super::{HOME_0, HOME_1, open, stranger, talkative};
-use crate::support::{assets, digest_of, robot, strategy_text};
+use crate::support::{digest_of, robot, strategy_text};
 
 /// A match that ChaosManager may speak to from these addresses.
 fn open_to(plan: MatchPlan, from: &[IpAddr]) -> (Match, MatchPlan) {
@@ -250,96 +248,6 @@ fn a_robot_is_driven_stops_when_the_link_breaks_and_goes_back_to_its_strategy() 
     assert_ne!(again(&plan, &without, ticks).record().digest, game.record().digest);
 }
 
-/// AIBOs that see nothing but pictures, against each other.
-fn seeing(half_minutes: f32) -> MatchPlan {
-    let choice = Choice {
-        file: Some("four_legged_images".into()),
-        half_minutes: Some(half_minutes),
-        seed: 7,
-        ..Choice::default()
-    };
-    MatchPlan::read(&assets(), &choice).expect("the shipped files are sound")
-}
-
-#[test]
-fn pictures_cross_a_link_with_loss_whole_or_are_counted_as_missing() {
-    let (mut game, plan) = open_to(seeing(0.5), &[]);
-    let mut manager = Manager::of(&plan, HOME_1, 0.005);
-    manager.talk.subscribe(Subscription { images_hz: 10.0, data_hz: 5.0 });
-    let mut pictures: Vec<(u64, Gaze, Image)> = Vec::new();
-    for _ in 0..240 {
-        let news = manager.tick(&mut game);
-        let mut robots = game.world_mut().query::<(&RobotId, &ImageEyes, &ImageMemory)>();
-        let (_, eyes, memory) =
-            robots.iter(game.world()).find(|(id, ..)| **id == HOME_1).expect("it is in the match");
-        let last = memory.last().map(|last| (last.tick, last.gaze, eyes.image().clone()));
-        let before = pictures.last().map(|(tick, ..)| *tick);
-        pictures.extend(last.filter(|(tick, ..)| before != Some(*tick)));
-        for news in news {
-            let ChaosNews::Image(data) = news else { continue };
-            let taken = pictures.iter().find(|(tick, ..)| *tick == data.tick).expect("it was taken");
-            assert_eq!((data.gaze, data.image()), (taken.1, taken.2.clone()));
-        }
-    }
-    let (there, sent) = (manager.talk.figures().images, figures(&game).images);
-    assert!(there.received > 10 && there.missing > 3, "{there:?}");
-    // The last ones may still be under way or be known as missing with the next.
-    let known = there.received + there.missing;
-    assert!((sent.put_in - 4..=sent.put_in).contains(&known), "{there:?} {sent:?}");
-    assert_eq!((sent.dropped, sent.refused), (0, 0));
-    assert!(there.bytes > there.received * 208 * 160 * 3, "{there:?}");
-}
-
-#[test]
-fn more_pictures_than_a_link_takes_are_dropped_the_oldest_first_and_counted() {
-    let (mut game, plan) = open_to(seeing(0.5), &[]);
-    let robots: Vec<RobotId> = plan.robots().collect();
-    let mut managers: Vec<Manager> = robots.iter().map(|robot| Manager::of(&plan, *robot, 0.0)).collect();
-    for manager in &mut managers {
-        manager.talk.subscribe(Subscription { images_hz: 30.0, data_hz: 0.0 });
-    }
-    let mut before = 0;
-    for _ in 0..90 {
-        for manager in &mut managers[1..] {
-            manager.say(&game);
-        }
-        managers[0].tick(&mut game);
-        managers[1..].iter_mut().for_each(|manager| drop(manager.hear(&game)));
-        let datagrams = figures(&game).images.datagrams;
-        assert!(datagrams - before <= 40, "{} datagrams in a tick", datagrams - before);
-        before = datagrams;
-    }
-    let sent = figures(&game).images;
-    assert!(sent.dropped > sent.sent, "{sent:?}");
-    assert!(sent.put_in - sent.sent - sent.dropped <= 5, "four wait and one leaves: {sent:?}");
-    let whole: u64 = managers.iter().map(|manager| manager.talk.figures().images.received).sum();
-    assert_eq!(whole, sent.sent);
-}
-
-#[test]
-fn a_colour_table_that_is_sent_makes_a_robot_blind_and_the_match_replays() {
-    let (mut game, plan) = open_to(seeing(0.5), &[]);
-    game.world_mut().insert_resource(RequestLog::default());
-    let mut manager = Manager::of(&plan, HOME_1, 0.02);
-    manager.talk.subscribe(Subscription { images_hz: 0.0, data_hz: 10.0 });
-    let hits = |news: &[ChaosNews]| {
-        let of = |class| {
-            let quality = debug_data(news).into_iter().filter_map(move |data| data.quality);
-            quality.map(|quality| quality.class(class).hits).sum::<u64>()
-        };
-        ColourClass::ALL.map(of).into_iter().sum::<u64>()
-    };
-    let news = manager.ticks(&mut game, 60);
-    assert!(hits(&news) > 0);
-    let answer = manager.give(&mut game, Instruction::SetColours(ColourTable::default()));
-    assert!(matches!(answer, ChaosNews::Accepted(_)), "{answer:?}");
-    manager.ticks(&mut game, 10);
-    let news = manager.ticks(&mut game, 60);
-    assert_eq!(hits(&news), 0, "what is in no table is never seen");
-    let (RequestLog(requests), ticks) = (log_of(&game), game.clock().tick);
-    assert_eq!(again(&plan, &requests, ticks).record().digest, game.record().digest);
-}
-
 /// A camera that somebody has calibrated.
 fn calibration() -> CameraCalibration {
     let optics = Optics { width: 208, height: 160, field_of_view: 56.9, mount: 0.19, tilt: 10.0, nod: 40.0 };
@@ -453,69 +361,4 @@ fn a_tick_reads_one_strategy_at_most_and_what_is_no_order_is_counted() {
     say(computer, Peer::Robot { team: 0, number: 9 }, 7);
     game.tick();
     assert_eq!(figures(&game).orders.refused, 3, "there is no such robot");
-}
-
-/// What `touchline chaos` says while a match is played.
-fn chaos(game: &mut Match, plan: &MatchPlan, options: &[&str]) -> Output {
-    let at = sockets(plan)[0].to_string();
-    let is_over = AtomicBool::new(false);
-    std::thread::scope(|scope| {
-        let program = scope.spawn(|| {
-            let program = Command::new(env!("CARGO_BIN_EXE_touchline"))
-                .args(["chaos", "--connect", &at])
-                .args(options)
-                .current_dir(env!("CARGO_MANIFEST_DIR"))
-                .output();
-            is_over.store(true, Ordering::Relaxed);
-            program.expect("the program starts")
-        });
-        while !is_over.load(Ordering::Relaxed) {
-            game.tick();
-        }
-        program.join().expect("it does not panic")
-    })
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-#[test]
-fn the_program_prints_what_a_robot_believes_and_sends_a_strategy() {
-    let (mut game, plan) = open_to(talkative(45.0), &[]);
-    let output = chaos(&mut game, &plan, &["--robot", "home:1", "--data"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let data: serde_json::Value = serde_json::from_slice(&output.stdout).expect("it is JSON");
-    assert!(data["pose"]["position"][0].is_number() && data["role"].is_string(), "{data}");
-
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let file = folder.path().join("mine.ron");
-    let path = file.to_string_lossy().into_owned();
-    std::fs::write(&file, long_strategy("Sent")).expect("it is written");
-    let output = chaos(&mut game, &plan, &["--robot", "home:1", "--strategy", &path]);
-    assert_eq!((text(&output.stdout), text(&output.stderr)), ("accepted by home 1\n".into(), String::new()));
-    assert!(game.world().resource::<Strategies>().of(Team::Home).name.starts_with("Sent "));
-
-    std::fs::write(&file, "(name: 7)").expect("it is written");
-    let output = chaos(&mut game, &plan, &["--robot", "home:1", "--strategy", &path]);
-    let error = text(&output.stderr);
-    assert_eq!((output.status.code(), error.lines().count()), (Some(2), 1), "{error}");
-    assert!(error.starts_with("home 1 refuses the strategy: mine.ron:1:8: name: "), "{error}");
-
-    let picture = folder.path().join("picture.png").to_string_lossy().into_owned();
-    let output = chaos(&mut game, &plan, &["--robot", "home:1", "--image", &picture]);
-    let error = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{error}");
-    assert!(error.starts_with("home 1 refuses the subscription: it does not see by pictures"), "{error}");
-}
-
-#[test]
-fn the_program_says_in_a_line_that_nobody_answers() {
-    let at = stranger().local_addr().expect("it is bound").to_string();
-    let options = ["chaos", "--connect", &at, "--robot", "home:1", "--data", "--timeout", "0.2"];
-    let output = Command::new(env!("CARGO_BIN_EXE_touchline")).args(options).output().expect("it starts");
-    let line = format!(
-        "network: no match answers ChaosManager at {at} within 0.2 s: start it with `--chaos {at}`\n"
-    );
-    assert_eq!((output.status.code(), text(&output.stderr)), (Some(2), line));
 }
