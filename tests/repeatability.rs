@@ -75,7 +75,11 @@ fn a_strategy_can_be_exchanged_during_the_match() {
     let mut game = Match::new(&plan);
     while !game.is_over() {
         if game.clock().tick == 600 {
-            let request = Request::ChangeStrategy { team: Team::Away, strategy: Arc::clone(&slow) };
+            let request = Request::ChangeStrategy {
+                team: Team::Away,
+                strategy: Arc::clone(&slow),
+                texts: Arc::default(),
+            };
             game.world_mut().resource_mut::<Requests>().ask(request);
         }
         game.tick();
@@ -97,7 +101,7 @@ fn a_match_with_people_and_changed_files_is_played_again_from_its_requests() {
         400 => vec![Request::TakeOver(pilot), Request::Steer { robot: pilot, pilot: levers(1.0) }],
         500 => vec![
             Request::SetWeight { team: Team::Home, assemblage: 0, term: 0, weight: 2.0 },
-            Request::ChangeStrategy { team: Team::Home, strategy: slow.clone() },
+            Request::ChangeStrategy { team: Team::Home, strategy: slow.clone(), texts: Arc::default() },
             Request::Radio(RadioChange::ExtraLoss(0.5)),
         ],
         600 => vec![

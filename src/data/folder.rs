@@ -3,17 +3,25 @@
 use std::ffi::{OsStr, OsString};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::error::DataError;
 use super::kind::AssetKind;
+use super::listing::names_in;
+use super::source::Source;
+use super::texts::{AssetTexts, ReadTexts};
 
 /// The environment variable that names the folder.
 const VARIABLE: &str = "TOUCHLINE_ASSETS";
 
-/// A folder with a folder for each kind of file, such as `strategies` and `pitches`.
+/// A folder with a folder for each kind of file, such as `strategies` and `pitches`: on the disk, or the texts that were once
+/// read from there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AssetFolder {
     root: PathBuf,
+    /// Its files, if they are not on the disk.
+    kept: Option<Arc<AssetTexts>>,
+    notes: ReadTexts,
 }
 
 impl AssetFolder {
@@ -38,7 +46,40 @@ impl AssetFolder {
 
     /// The folder at `root`, which need not exist.
     pub fn new(root: impl Into<PathBuf>) -> AssetFolder {
-        AssetFolder { root: root.into() }
+        AssetFolder { root: root.into(), kept: None, notes: ReadTexts::default() }
+    }
+
+    /// The folder that was at `root` when these files were read: those that matter, in it and elsewhere.
+    pub fn kept(root: impl Into<PathBuf>, texts: AssetTexts) -> AssetFolder {
+        AssetFolder { kept: Some(Arc::new(texts)), ..AssetFolder::new(root) }
+    }
+
+    /// The same folder, and what is read from here on through it and its copies.
+    pub fn noting(&self) -> (AssetFolder, ReadTexts) {
+        let notes = ReadTexts::default();
+        (AssetFolder { notes: notes.clone(), ..self.clone() }, notes)
+    }
+
+    /// Reads a file, in the folder or elsewhere.
+    ///
+    /// # Errors
+    /// As [`Source::read`].
+    pub fn read(&self, path: &Path) -> Result<Source, DataError> {
+        let source = match &self.kept {
+            None => Source::read(path)?,
+            Some(texts) => {
+                let text =
+                    texts.get(path).ok_or_else(|| DataError::new(path, "was not kept with the match"))?;
+                Source::new(path, text)
+            }
+        };
+        self.notes.note(&source.path, &source.text);
+        Ok(source)
+    }
+
+    /// Whether there is such a file.
+    pub fn has_file(&self, path: &Path) -> bool {
+        self.kept.as_ref().map_or_else(|| path.is_file(), |texts| texts.contains_key(path))
     }
 
     /// The folder itself.
@@ -52,7 +93,7 @@ impl AssetFolder {
     pub fn file(&self, kind: AssetKind, name: &str) -> PathBuf {
         let among_assets = self.root.join(kind.folder()).join(format!("{name}.ron"));
         let here = Path::new(name);
-        if is_path(name) || (here.is_file() && !among_assets.is_file()) {
+        if is_path(name) || (self.has_file(here) && !self.has_file(&among_assets)) {
             here.to_owned()
         } else {
             among_assets
@@ -61,7 +102,11 @@ impl AssetFolder {
 
     /// The names of the files of a kind, sorted; none if the folder cannot be read.
     pub fn names(&self, kind: AssetKind) -> Vec<String> {
-        names_in(&self.root.join(kind.folder()), "ron")
+        let folder = self.root.join(kind.folder());
+        let Some(texts) = &self.kept else { return names_in(&folder, "ron") };
+        let stems =
+            texts.keys().filter(|path| path.parent() == Some(&folder)).filter_map(|path| path.file_stem());
+        stems.filter_map(|stem| stem.to_str().map(str::to_owned)).collect()
     }
 
     /// All files of a kind, sorted.
@@ -117,20 +162,6 @@ pub fn is_path(name: &str) -> bool {
 
 fn is_ron(extension: &OsStr) -> bool {
     extension.eq_ignore_ascii_case("ron")
-}
-
-/// The names without extension of the files in a folder that have the extension, sorted; none if it cannot be read.
-pub(super) fn names_in(folder: &Path, extension: &str) -> Vec<String> {
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return Vec::new();
-    };
-    let mut names: Vec<String> = entries
-        .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| path.extension().is_some_and(|it| it == extension) && path.is_file())
-        .filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned()))
-        .collect();
-    names.sort();
-    names
 }
 
 #[cfg(test)]

@@ -11,9 +11,11 @@ mod field;
 mod field_names;
 mod folder;
 mod kind;
+mod listing;
 mod locate;
 mod scan;
 mod source;
+mod texts;
 mod twice;
 mod words;
 
@@ -26,3 +28,4 @@ pub use folder::{AssetFolder, is_path};
 pub use kind::AssetKind;
 pub use locate::locate;
 pub use source::{Source, TopLevel, contents, ron_options};
+pub use texts::{AssetTexts, ReadTexts};

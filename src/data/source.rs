@@ -17,7 +17,7 @@ use super::bounds::Bound;
 use super::error::DataError;
 use super::fault::{Fault, Validate};
 use super::field::{Field, Segment};
-use super::folder::names_in;
+use super::listing::names_in;
 use super::locate::{find, line_and_column, locate, outermost};
 use super::twice::{given_twice, name};
 use super::words::in_words;

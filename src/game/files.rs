@@ -9,8 +9,8 @@ use crate::comms::tcm::Peer;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, TopLevel, Validate, no_such};
 
 /// Reads the table of addresses.
-pub(crate) fn read_addresses(path: &Path) -> Result<Directory, DataError> {
-    let source = Source::read(path)?;
+pub(crate) fn read_addresses(assets: &AssetFolder, path: &Path) -> Result<Directory, DataError> {
+    let source = assets.read(path)?;
     let directory: Directory = source.parse()?;
     match directory.fault() {
         Some((entity, message)) => Err(source.error_at(&entry_of(&source, entity), message)),
@@ -39,13 +39,16 @@ pub(crate) fn file_named(
     (field, name): (&str, &str),
 ) -> Result<PathBuf, DataError> {
     let path = assets.file(kind, name);
-    if path.exists() {
+    if assets.has_file(&path) {
         return Ok(path);
     }
     Err(source.error_at(&Field::root().dotted(field), no_such(&kind.to_string(), name, assets.names(kind))))
 }
 
 /// Reads a file whose type checks its own numbers.
-pub(crate) fn checked<T: DeserializeOwned + Validate>(path: &Path) -> Result<T, DataError> {
-    Source::read(path)?.parse_sound()
+pub(crate) fn checked<T: DeserializeOwned + Validate>(
+    assets: &AssetFolder,
+    path: &Path,
+) -> Result<T, DataError> {
+    assets.read(path)?.parse_sound()
 }

@@ -17,7 +17,7 @@ use crate::game::requests::Request;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::strategy::teamwork::TeamworkFile;
-use crate::strategy::{Strategy, StrategyReading};
+use crate::strategy::{Strategy, StrategyReading, StrategyTexts};
 use crate::world::referee::RuleBook;
 use crate::world::sense::Lighting;
 
@@ -62,7 +62,7 @@ fn default_radio() -> String {
 }
 
 /// What a person changes of a match file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
     /// The match file; `friendly` if not given.
     pub file: Option<String>,
@@ -140,13 +140,19 @@ impl MatchPlan {
 
     /// Checks the text of a strategy that was sent under a name, as [`MatchPlan::reread`] does its file.
     ///
-    /// # Errors
-    /// Says what is wrong with the text's name, line, column and field.
-    pub fn read_sent(&self, team: Team, name: &str, text: String) -> Result<Strategy, DataError> {
+    pub fn read_sent(&self, team: Team, name: &str, text: String) -> StrategyReading {
         let TeamPlan { names, teamwork_change, kind, .. } = self.team(team);
         let source = Source::new(Path::new(name).file_name().unwrap_or(OsStr::new("strategy")), text);
         let reading = Strategy::read_sent(&self.assets, source, Some(&self.pitch));
-        self.follow(team, fit(reading, names, teamwork_change, kind, (&self.pitch, &self.ball))).strategy
+        self.follow(team, fit(reading, names, teamwork_change, kind, (&self.pitch, &self.ball)))
+    }
+
+    /// Reads a strategy again from the texts that it was read from, whatever is in the files now.
+    pub fn read_kept(&self, team: Team, texts: &StrategyTexts) -> StrategyReading {
+        let TeamPlan { names, teamwork_change, kind, .. } = self.team(team);
+        let assets = AssetFolder::kept(self.assets.root(), texts.files.clone());
+        let reading = Strategy::read(&assets, &texts.path, Some(&self.pitch));
+        self.follow(team, fit(reading, names, teamwork_change, kind, (&self.pitch, &self.ball)))
     }
 
     /// A strategy for robots that play what the team played at first.
@@ -172,7 +178,7 @@ impl MatchPlan {
     /// # Errors
     /// As [`MatchPlan::read`].
     pub fn read_file(assets: &AssetFolder, path: &Path, choice: &Choice) -> Result<MatchPlan, DataError> {
-        let source = Source::read(path)?;
+        let source = assets.read(path)?;
         let mut file: MatchFile = source.parse_sound()?;
         if choice.network.league_ports.is_some() {
             file.tcm.datagram = file.tcm.datagram.min(choice.network.version.longest_message());
@@ -182,14 +188,14 @@ impl MatchPlan {
             file.rules.validate().map_err(|fault| DataError::new("--minutes", fault.message))?;
         }
         let pitch = file_named(assets, &source, AssetKind::Pitch, ("pitch", &file.pitch))?;
-        let pitch = checked(&pitch)?;
+        let pitch = checked(assets, &pitch)?;
         if choice.radio.is_none() {
             file_named(assets, &source, AssetKind::Radio, ("radio", &file.radio))?;
         }
         file.home.check(assets, &source, "home", choice.home.is_none())?;
         file.away.check(assets, &source, "away", choice.away.is_none())?;
         let radio = choice.radio.as_ref().unwrap_or(&file.radio);
-        let radio = checked(&assets.file(AssetKind::Radio, radio))?;
+        let radio = checked(assets, &assets.file(AssetKind::Radio, radio))?;
         for (team, chosen) in [(&mut file.home, &choice.home), (&mut file.away, &choice.away)] {
             if let Some(strategy) = chosen {
                 // What a match changes of its own strategy's teamwork means nothing for another.
@@ -200,7 +206,7 @@ impl MatchPlan {
             TeamPlan::read(assets, &file.home, (&source, "home"), (&pitch, &file.ball))?,
             TeamPlan::read(assets, &file.away, (&source, "away"), (&pitch, &file.ball))?,
         ];
-        let addresses = choice.addresses.as_deref().map(read_addresses).transpose()?;
+        let addresses = choice.addresses.as_deref().map(|path| read_addresses(assets, path)).transpose()?;
         let mut network = NetworkPlan::clone(&choice.network);
         if network.team_numbers.is_none() {
             network.team_numbers = team_numbers(&source, &file)?;

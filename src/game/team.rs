@@ -72,12 +72,12 @@ pub struct Senses {
 impl Senses {
     /// Reads a preset, and the calibration that it names, if it names one.
     fn read(assets: &AssetFolder, name: &str) -> Result<Senses, DataError> {
-        let source = Source::read(assets.file(AssetKind::Sensing, name))?;
+        let source = assets.read(&assets.file(AssetKind::Sensing, name))?;
         let sensing: Sensing = source.parse_sound()?;
         let calibration = match sensing.eyes.calibration() {
             Some(camera) => {
                 let file = file_named(assets, &source, AssetKind::Camera, ("eyes.calibration", camera))?;
-                Some(Arc::new(checked(&file)?))
+                Some(Arc::new(checked(assets, &file)?))
             }
             None => None,
         };
@@ -114,7 +114,7 @@ impl TeamPlan {
         (source, side): (&Source, &str),
         (pitch, ball): (&Pitch, &BallKind),
     ) -> Result<TeamPlan, DataError> {
-        let kind: RobotKind = checked(&assets.file(AssetKind::Robot, &names.robot))?;
+        let kind: RobotKind = checked(assets, &assets.file(AssetKind::Robot, &names.robot))?;
         let at = Field::root().key(side).key("teamwork");
         let change = TeamworkChange { teamwork: names.teamwork.clone(), source: source.clone(), at };
         let reading = read_strategy(assets, names, &change, &kind, (pitch, ball));
@@ -214,7 +214,7 @@ fn sound<T: DeserializeOwned + Validate>(
     kind: AssetKind,
     names: Vec<String>,
 ) -> impl Iterator<Item = T> {
-    names.into_iter().filter_map(move |name| checked(&assets.file(kind, &name)).ok())
+    names.into_iter().filter_map(move |name| checked(assets, &assets.file(kind, &name)).ok())
 }
 
 fn lines_up(strategy: &Strategy, line_up: &LineUp) -> Result<(), (Field, String)> {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::file::StrategyFile;
 use super::pieces::KickOff;
 use super::resolve::resolve;
-use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path};
+use crate::data::{AssetFolder, AssetKind, AssetTexts, DataError, Field, Source, is_path};
 
 /// The most strategies that may each be based on the next.
 const MAX_BASES: usize = 8;
@@ -19,11 +19,19 @@ pub(super) struct Lineage<'a> {
     is_sent: bool,
     /// Every file that was looked for, whether or not it is there.
     pub(super) files: Vec<PathBuf>,
+    /// What was in the bases.
+    pub(super) texts: AssetTexts,
 }
 
 impl Lineage<'_> {
     pub(super) fn of<'a>(path: &Path, assets: &'a AssetFolder) -> Lineage<'a> {
-        Lineage { assets, row: vec![path.to_owned()], is_sent: false, files: vec![path.to_owned()] }
+        Lineage {
+            assets,
+            row: vec![path.to_owned()],
+            is_sent: false,
+            files: vec![path.to_owned()],
+            texts: AssetTexts::new(),
+        }
     }
 
     /// That of a text from elsewhere, which reaches the files of this machine by the names of assets only.
@@ -56,7 +64,8 @@ impl Lineage<'_> {
             return fault(format!("more than {MAX_BASES} strategies are based on one another"));
         }
         self.row.push(path.clone());
-        let base_source = Source::read(&path)?;
+        let base_source = self.assets.read(&path)?;
+        self.texts.insert(path, base_source.text.clone());
         let base = self.complete(base_source.parse()?, &base_source)?;
         // Its own faults are told with their places in it.
         resolve(&base, &base_source, None)?;
@@ -77,7 +86,7 @@ impl Lineage<'_> {
             if !self.files.contains(&place) {
                 self.files.push(place.clone());
             }
-            if place.is_file() {
+            if self.assets.has_file(&place) {
                 return Some(place);
             }
         }

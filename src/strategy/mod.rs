@@ -29,7 +29,7 @@ pub use pieces::{
     Assemblage, Combination, CompositeState, HomebaseRule, Influence, KickOff, Machine, Part, Play, RoleSpec,
     State, Strategy, SubRole, Term, Transition, Turn,
 };
-pub use reading::{StrategyReading, TeamworkChange};
+pub use reading::{StrategyReading, StrategyTexts, TeamworkChange};
 pub use role::{Role, RoleRef};
 
 /// The strategies of a match, home first. They change only in the Script stage.

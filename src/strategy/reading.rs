@@ -1,13 +1,16 @@
 //! Reading a strategy from its file and those that it is based on.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use super::base::Lineage;
 use super::file::StrategyFile;
 use super::pieces::Strategy;
 use super::resolve;
 use super::teamwork::TeamworkFile;
-use crate::data::{AssetFolder, DataError, Field, Source};
+use crate::data::{AssetFolder, AssetTexts, DataError, Field, Source};
 use crate::pitch::Pitch;
 
 /// What came of reading a strategy.
@@ -22,6 +25,17 @@ pub struct StrategyReading {
     /// Its own file first, then where those that it is based on are or were looked for: if one of these changes, comes or
     /// goes, so may the strategy.
     pub files: Vec<PathBuf>,
+    /// The texts of those that are there.
+    pub texts: Arc<StrategyTexts>,
+}
+
+/// The texts that a strategy was read from: from them it can be read again.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StrategyTexts {
+    /// Its own file.
+    pub path: PathBuf,
+    /// Its own text and those of the strategies that it is based on.
+    pub files: AssetTexts,
 }
 
 /// What a match or a scenario says of a strategy's teamwork in place of the strategy, and where it says so.
@@ -65,13 +79,14 @@ impl Strategy {
     /// Reads and checks a strategy file and those that it is based on. Its positions are stretched to a pitch, and are as
     /// they are written without one.
     pub fn read(assets: &AssetFolder, path: &Path, pitch: Option<&Pitch>) -> StrategyReading {
-        match Source::read(path) {
+        match assets.read(path) {
             Ok(source) => Strategy::reading(source, Lineage::of(path, assets), pitch),
             Err(error) => StrategyReading {
                 strategy: Err(error),
                 teamwork: TeamworkFile::default(),
                 source: Source::new(path, ""),
                 files: vec![path.to_owned()],
+                texts: Arc::default(),
             },
         }
     }
@@ -88,7 +103,9 @@ impl Strategy {
             Ok((strategy, file)) => (Ok(strategy), file.teamwork),
             Err(error) => (Err(error), TeamworkFile::default()),
         };
-        StrategyReading { strategy, teamwork, source, files: lineage.files }
+        let mut texts = StrategyTexts { path: source.path.clone(), files: lineage.texts };
+        texts.files.insert(source.path.clone(), source.text.clone());
+        StrategyReading { strategy, teamwork, source, files: lineage.files, texts: Arc::new(texts) }
     }
 
     /// Checks the text of a strategy file that is already at hand, as [`Strategy::read`] does.

@@ -16,7 +16,7 @@ use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, DataError, Source};
 use crate::game::net::NetworkError;
 use crate::game::net::chaos::{ChaosLink, ChaosNews, Instruction, Refusal, StrategyText, Subscription};
-use crate::game::{Choice, MatchPlan, checked};
+use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
 use crate::vision::CameraCalibration;
 
@@ -81,7 +81,7 @@ impl ChaosCommand {
             return self.give(&mut link, vec![strategy], out);
         }
         if let Some(path) = &self.colours {
-            let CameraCalibration { settings, colours, .. } = checked(path)?;
+            let CameraCalibration { settings, colours, .. } = Source::read(path)?.parse_sound()?;
             let orders = vec![Instruction::SetCamera(settings), Instruction::SetColours(colours)];
             return self.give(&mut link, orders, out);
         }

@@ -68,12 +68,12 @@ pub(super) fn read(
         AssetKind::Match => {
             MatchPlan::read_file(assets, path, &Choice::default())?;
         }
-        AssetKind::Pitch => drop(checked::<Pitch>(path)?),
-        AssetKind::Robot => drop(checked::<RobotKind>(path)?),
-        AssetKind::Sensing => drop(checked::<Sensing>(path)?),
-        AssetKind::Camera => drop(checked::<CameraCalibration>(path)?),
-        AssetKind::Radio => drop(checked::<Radio>(path)?),
-        AssetKind::Addresses => drop(read_addresses(path)?),
+        AssetKind::Pitch => drop(checked::<Pitch>(assets, path)?),
+        AssetKind::Robot => drop(checked::<RobotKind>(assets, path)?),
+        AssetKind::Sensing => drop(checked::<Sensing>(assets, path)?),
+        AssetKind::Camera => drop(checked::<CameraCalibration>(assets, path)?),
+        AssetKind::Radio => drop(checked::<Radio>(assets, path)?),
+        AssetKind::Addresses => drop(read_addresses(assets, path)?),
     }
     Ok(Vec::new())
 }

@@ -14,7 +14,7 @@ use crate::ids::{RobotId, Team};
 use crate::protocol::role_swap::Reassignment;
 use crate::robot::pilot::Pilot;
 use crate::robot::{HeadIntent, KickIntent, Restart, RobotFailure, RobotKind, Sensing, SteeringIntent};
-use crate::strategy::Strategy;
+use crate::strategy::{Strategy, StrategyTexts};
 use crate::vision::{CameraSettings, ColourTable};
 use crate::world::sense::Lighting;
 
@@ -45,10 +45,10 @@ pub enum Request {
     /// A datagram that has reached a robot of this process over a real network.
     Datagram(NetworkDatagram),
     /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow). It cannot be written
-    /// to a file, since names and places have been looked up in it. It stays the last one, so that those before it have the
-    /// same numbers when they are written and when they are read.
+    /// to a file, since names and places have been looked up in it; what it was read from can. It stays the last one, so that
+    /// those before it have the same numbers when they are written and when they are read.
     #[serde(skip)]
-    ChangeStrategy { team: Team, strategy: Arc<Strategy> },
+    ChangeStrategy { team: Team, strategy: Arc<Strategy>, texts: Arc<StrategyTexts> },
 }
 
 /// What happens to a robot.

@@ -22,7 +22,7 @@ pub(super) fn change_strategies(
 ) {
     for request in requests.due() {
         match request {
-            Request::ChangeStrategy { team, strategy } => {
+            Request::ChangeStrategy { team, strategy, .. } => {
                 change_strategy(*team, strategy, &clock, &mut strategies, (&mut commands, &robots));
             }
             Request::SetWeight { team, assemblage, term, weight } if weight.is_finite() => {

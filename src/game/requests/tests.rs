@@ -156,8 +156,11 @@ fn another_strategy_gives_the_robots_of_one_team_their_roles_by_name_and_a_new_m
     other.slots = 5;
     let mut same = one();
     same.roles.reverse();
-    let change =
-        |team, strategy: &Strategy| Request::ChangeStrategy { team, strategy: Arc::new(strategy.clone()) };
+    let change = |team, strategy: &Strategy| Request::ChangeStrategy {
+        team,
+        strategy: Arc::new(strategy.clone()),
+        texts: Arc::default(),
+    };
     ask(&mut app, [change(Home, &other), change(Away, &same), set_weight(Away, 0, 7.0)]);
     let mut robots = app.world_mut().query::<(&RobotId, &Role, &Activity, &mut Memory)>();
     let mut acting = Vec::new();
@@ -224,7 +227,7 @@ fn a_log_has_the_requests_of_each_tick_in_the_order_in_which_they_were_carried_o
     let mut app = app();
     app.insert_resource(RequestLog::default());
     app.insert_resource(Script::new(&[(1, Request::TakeOver(SECOND))]));
-    let change = Request::ChangeStrategy { team: Home, strategy: Arc::new(one()) };
+    let change = Request::ChangeStrategy { team: Home, strategy: Arc::new(one()), texts: Arc::default() };
     ask(&mut app, [set_weight(Home, 0, 3.0), change.clone()]);
     app.world_mut().resource_mut::<Clock>().tick = 1;
     ask(&mut app, [steer(SECOND, 0.5)]);

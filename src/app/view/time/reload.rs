@@ -109,7 +109,7 @@ fn take_over_changes(
                 let plan = &mut plan.teams[team.index()];
                 plan.strategy = strategy.clone();
                 plan.strategy_files = reading.files;
-                requests.ask(Request::ChangeStrategy { team, strategy });
+                requests.ask(Request::ChangeStrategy { team, strategy, texts: reading.texts });
             }
             Err(error) => file_error.0 = Some(format!("{error}. The {team} team plays on with what it had")),
         }

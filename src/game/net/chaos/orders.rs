@@ -47,8 +47,9 @@ fn line(fault: Fault) -> String {
 
 /// A team is to play another strategy: read and checked as its file would be.
 pub(super) fn play_strategy(plan: &MatchPlan, team: Team, text: StrategyText) -> Result<Request, String> {
-    let strategy = plan.read_sent(team, &text.name, text.text).map_err(|error| error.to_string())?;
-    Ok(Request::ChangeStrategy { team, strategy: Arc::new(strategy) })
+    let reading = plan.read_sent(team, &text.name, text.text);
+    let strategy = reading.strategy.map_err(|error| error.to_string())?;
+    Ok(Request::ChangeStrategy { team, strategy: Arc::new(strategy), texts: reading.texts })
 }
 
 /// Which orders were answered lately, and how.
