@@ -1,7 +1,10 @@
 //! What a person wants to see in the window, and the plans that this comes to.
 
+use std::path::PathBuf;
+
 use crate::data::{AssetFolder, DataError};
-use crate::game::{Choice, MatchPlan};
+use crate::game::Choice;
+use crate::lab::replay::{Plans, Recorded, Replay, ReplayHeader};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
 use crate::rng::DEFAULT_SEED;
 
@@ -17,6 +20,8 @@ pub enum MatchRequest {
         /// Its first one, if not given.
         seed: Option<u64>,
     },
+    /// A recorded match, in a file.
+    Replay(PathBuf),
 }
 
 impl Default for MatchRequest {
@@ -25,21 +30,24 @@ impl Default for MatchRequest {
     }
 }
 
-/// The plan of a match, and of the scenario that it belongs to.
-pub type Plans = (MatchPlan, Option<ScenarioPlan>);
-
 impl MatchRequest {
-    /// Reads the files.
+    /// Reads the files; also as a recording of the match keeps them.
     ///
     /// # Errors
     /// The first fault of a file.
-    pub fn plans(&self, assets: &AssetFolder) -> Result<Plans, DataError> {
+    pub fn read(&self, assets: &AssetFolder) -> Result<(ReplayHeader, Plans), DataError> {
         match self {
-            MatchRequest::Match(choice) => MatchPlan::read(assets, choice).map(|plan| (plan, None)),
+            MatchRequest::Match(choice) => ReplayHeader::of(Recorded::Match(choice.clone()), assets),
             MatchRequest::Scenario { scenario, seed } => {
-                let scenario = ScenarioPlan::read(assets, scenario)?;
-                let seed = seed.or_else(|| scenario.scenario.seeds.first().copied()).unwrap_or(DEFAULT_SEED);
-                Ok((scenario.with_seed(seed), Some(scenario)))
+                let plan = ScenarioPlan::read(assets, scenario)?.scenario;
+                let seed = seed.or_else(|| plan.seeds.first().copied()).unwrap_or(DEFAULT_SEED);
+                let (scenario, place) = (scenario.clone(), plan.first_place());
+                ReplayHeader::of(Recorded::Scenario { scenario, place, seed, without: None }, assets)
+            }
+            MatchRequest::Replay(path) => {
+                let replay = Replay::read(path)?;
+                let plans = replay.plans()?;
+                Ok((replay.header, plans))
             }
         }
     }
@@ -55,7 +63,7 @@ mod tests {
         let scenario = ScenarioRef::named(&assets, "swap_figure_8");
         let seed_of = |seed| {
             let scenario = scenario.clone();
-            let (plan, scenario) = MatchRequest::Scenario { scenario, seed }.plans(&assets).unwrap();
+            let (_, (plan, scenario)) = MatchRequest::Scenario { scenario, seed }.read(&assets).unwrap();
             assert!(scenario.is_some() && plan.situation.is_some());
             plan.seed
         };

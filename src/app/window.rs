@@ -1,5 +1,7 @@
 //! The window: puts view and inspector together, opens them, and tells how it ended.
 
+use std::path::PathBuf;
+
 use bevy::app::PluginGroupBuilder;
 use bevy::log::{Level, LogPlugin};
 use bevy::prelude::*;
@@ -9,7 +11,7 @@ use bevy_egui::EguiPlugin;
 use crate::app::match_request::MatchRequest;
 use crate::app::view::interface::{settings, window_size};
 use crate::app::view::state::{Folder, PendingMatch};
-use crate::app::view::time::expectations;
+use crate::app::view::time::{expectations, recording::Recording};
 use crate::app::{inspector, logging, view};
 use crate::data::AssetFolder;
 
@@ -27,12 +29,14 @@ pub enum WindowEnd {
 }
 
 /// Opens the window and returns how it ended: begins at the menu, or in the match if one is wanted.
-pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> WindowEnd {
+/// What is played is recorded, if a file for it is given.
+pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>, record: Option<PathBuf>) -> WindowEnd {
     let mut app = App::new();
     app.add_plugins(default_plugins("Touchline"));
     app.add_plugins((EguiPlugin::default(), crate::game::simulation, view::plugin, inspector::plugin));
     app.insert_resource(Folder(assets.clone()));
     app.insert_resource(PendingMatch(wanted));
+    app.insert_resource(Recording::to(record));
     if let Some(file) = settings::SettingsFile::of_this_person() {
         app.insert_resource(file);
     }

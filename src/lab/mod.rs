@@ -1,6 +1,7 @@
 //! What gives evidence: scenarios that show what a team does, and check it; duels that measure how much a few robots are worth;
-//! cameras by whose pictures the fast model of eyes is fitted.
+//! cameras by whose pictures the fast model of eyes is fitted; matches that are kept and played again.
 
 pub mod duel;
 pub mod eyes;
+pub mod replay;
 pub mod scenario;

@@ -109,6 +109,12 @@ impl Snapshot {
         hasher.digest()
     }
 
+    /// Tells everything: of which entity, if it is not a resource, and of which kind, and as which text. In an order that is
+    /// the same for equal matches.
+    pub fn tell(&self, mut to: impl FnMut(Option<&str>, &'static str, &str)) {
+        self.parts().iter().for_each(|part| to(part.entity.as_deref(), part.kind, &part.text));
+    }
+
     /// The first thing that differs.
     pub fn difference(&self, other: &Snapshot) -> Option<Difference> {
         let (here, there) = (self.parts(), other.parts());

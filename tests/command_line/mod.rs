@@ -6,11 +6,14 @@ mod fit_eyes;
 mod interrupt;
 mod options;
 mod output;
+mod replays;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use crate::support::strategy_text;
+use touchline::data::AssetKind;
+
+use crate::support::{assets, strategy_text};
 
 /// The program with these arguments, as it is started where there is no display.
 pub(crate) fn program(arguments: &[&str]) -> Command {
@@ -106,9 +109,21 @@ fn bad_input_ends_with_one_line_and_exit_code_2() {
 
 #[test]
 fn check_reads_all_assets() {
-    let output = touchline(&["check"]);
-    assert!(output.status.success(), "{}", text(&output.stdout));
-    assert!(text(&output.stdout).contains("all sound"));
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let shipped = assets();
+    for kind in AssetKind::ALL {
+        let there = folder.path().join(kind.folder());
+        std::fs::create_dir(&there).expect("the folder is made");
+        // All scenarios are played by another test.
+        let few = if kind == AssetKind::Scenario { 2 } else { usize::MAX };
+        for file in shipped.files(kind).expect("they are there").into_iter().take(few) {
+            std::fs::copy(&file, there.join(file.file_name().expect("it has a name"))).expect("it is copied");
+        }
+    }
+    let output = touchline(&["check", "--assets", &folder.path().to_string_lossy()]);
+    let said = text(&output.stdout);
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("2 scenarios") && said.contains("all sound"), "{said}");
     assert_eq!(touchline(&["check", "Cargo.toml"]).status.code(), Some(2));
 }
 

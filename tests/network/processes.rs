@@ -116,6 +116,8 @@ fn stderr(output: &Output) -> String {
 struct Played {
     result: Value,
     robots: Vec<(RobotId, Value)>,
+    /// The result of the same match from its recording.
+    again: Value,
 }
 
 fn json(output: Output) -> Value {
@@ -130,24 +132,29 @@ fn play(remote: &[RobotId], minutes: &str) -> Option<Played> {
     plan.addresses = Some(free_directory(&plan));
     let folder = tempfile::tempdir().expect("a temporary folder");
     let addresses = write_addresses(&plan, folder.path());
+    let path = folder.path().join("a.replay");
+    let recording = path.to_str().expect("a plain path");
     let ears = stranger().local_addr().expect("it is bound").to_string();
     // First the robots, so that none of them speaks to one that does not listen yet.
     let start = |robot: &RobotId| Process::robot(*robot, address_of(&plan, *robot), &addresses);
     let mut robots = remote.iter().map(start).collect::<Option<Vec<_>>>()?;
     let names: Vec<String> = remote.iter().map(|robot| robot.to_string().replace(' ', ":")).collect();
     let elsewhere = names.iter().flat_map(|name| ["--remote", name]);
-    let options: Vec<&str> = ["run", "--json", "--minutes", minutes, "--announce", &ears]
-        .into_iter()
-        .chain(TALKATIVE)
-        .chain(elsewhere)
-        .collect();
+    let options: Vec<&str> =
+        ["run", "--json", "--minutes", minutes, "--announce", &ears, "--record", recording]
+            .into_iter()
+            .chain(TALKATIVE)
+            .chain(elsewhere)
+            .collect();
     let output = Process::start(&options, &addresses).end();
     if String::from_utf8_lossy(&output.stderr).contains("cannot listen at") {
         return None;
     }
     let result = json(output);
     let robots = remote.iter().zip(&mut robots).map(|(id, robot)| (*id, json(robot.end()))).collect();
-    Some(Played { result, robots })
+    let again = Command::new(env!("CARGO_BIN_EXE_touchline")).args(["replay", "--json", recording]).output();
+    let again = json(again.expect("the program starts"));
+    Some(Played { result, robots, again })
 }
 
 /// The sum of a figure over these reports.
@@ -170,7 +177,8 @@ fn play_in_time(remote: &[RobotId], minutes: &str) -> Played {
 fn a_match_between_processes_is_played_to_its_end_and_no_datagram_is_lost() {
     let home = (0..4).map(|number| RobotId::new(Team::Home, number));
     let remote: Vec<RobotId> = home.chain([RobotId::new(Team::Away, 2)]).collect();
-    let Played { result, robots } = play_in_time(&remote, "0.05");
+    let Played { result, robots, again } = play_in_time(&remote, "0.05");
+    assert_eq!((&again["digest"], &again["score"]), (&result["digest"], &result["score"]));
     let (seconds, ticks) = (result["seconds"].as_f64(), result["ticks"].as_u64());
     assert!(seconds >= Some(6.0), "both halves of three seconds: {seconds:?}");
     let network = &result["network"];

@@ -10,6 +10,7 @@ use clap::Args;
 use super::ending::{CommandError, Ending};
 use super::interrupt::Interrupt;
 use super::kinds;
+use super::recording::RunRecorder;
 use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, AssetKind, DataError, Field};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef, ScenarioReport, junit};
@@ -25,6 +26,9 @@ pub(super) struct CheckCommand {
     /// Write the scenarios' results to a file, as JUnit XML.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+    /// Record each run of a scenario in a file of its own in this folder, from which `replay` plays it again.
+    #[arg(long, value_name = "FOLDER")]
+    record: Option<PathBuf>,
 }
 
 /// What was found so far, printed as it is found.
@@ -95,23 +99,39 @@ impl CheckCommand {
         kind: AssetKind,
         file: &ScenarioRef,
         findings: &mut Findings<impl Write>,
-    ) -> io::Result<()> {
+    ) -> Result<(), CommandError> {
         *findings.files.entry(kind).or_default() += 1;
         match kinds::read(assets, kind, file) {
-            Ok(plans) if plans.is_empty() => findings.tell(file, Ok(())),
+            Ok(plans) if plans.is_empty() => findings.tell(file, Ok(()))?,
             Ok(plans) => plans.iter().try_for_each(|plan| match findings.know(plan) {
-                Ok(()) => self.play(plan, findings),
-                fault => findings.tell(&plan.origin, fault),
-            }),
-            Err(error) => findings.tell(file, Err(error)),
+                Ok(()) => self.play(assets, plan, findings),
+                fault => Ok(findings.tell(&plan.origin, fault)?),
+            })?,
+            Err(error) => findings.tell(file, Err(error))?,
         }
+        Ok(())
     }
 
-    fn play(&self, plan: &ScenarioPlan, findings: &mut Findings<impl Write>) -> io::Result<()> {
+    fn play(
+        &self,
+        assets: &AssetFolder,
+        plan: &ScenarioPlan,
+        findings: &mut Findings<impl Write>,
+    ) -> Result<(), CommandError> {
         let dependency = plan.scenario.depends_on.filter(|_| self.ablate);
         for without in [None].into_iter().chain(dependency.map(Some)) {
             if !findings.interrupt.is_asked() {
-                let report = plan.run_until(without, &|| findings.interrupt.is_asked());
+                let mut recorder = RunRecorder {
+                    folder: self.record.as_deref(),
+                    interrupt: &findings.interrupt,
+                    recorder: None,
+                    failed: None,
+                    assets,
+                    plan,
+                    without,
+                };
+                let report = plan.run_watched(without, &mut recorder);
+                recorder.conclude()?;
                 findings.report(report)?;
             }
         }

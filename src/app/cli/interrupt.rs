@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::ending::Ending;
+use crate::lab::scenario::RunWatcher;
 
 /// Whether a person wants the command to end.
 #[derive(Clone, Debug, Default)]
@@ -25,5 +26,11 @@ impl Interrupt {
 
     pub fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl RunWatcher for Interrupt {
+    fn stops(&self) -> bool {
+        self.is_asked()
     }
 }

@@ -12,6 +12,8 @@ mod options;
 mod picture_file;
 mod play;
 mod progress;
+mod recording;
+mod replay;
 mod robot;
 mod run;
 mod run_report;
@@ -46,6 +48,9 @@ enum CliCommand {
     /// Play a match headless, as fast as it goes, and print the result.
     #[command(after_help = EXIT_CODES)]
     Run(run::RunCommand),
+    /// Play a recorded match again, and compare it with its recording tick by tick.
+    #[command(after_help = EXIT_CODES)]
+    Replay(replay::ReplayCommand),
     /// Let a few robots of two strategies fight for a free ball, many times, and print the share that each side wins.
     #[command(after_help = EXIT_CODES)]
     Duel(duel::DuelCommand),
@@ -78,6 +83,7 @@ impl Cli {
         let opens_window = match &self.command {
             None | Some(CliCommand::Play(_)) => true,
             Some(CliCommand::Chaos(chaos)) => chaos.opens_window(),
+            Some(CliCommand::Replay(replay)) => replay.opens_window(),
             Some(_) => false,
         };
         if !opens_window {
@@ -89,6 +95,7 @@ impl Cli {
             None => play::PlayCommand::default().run(&assets, &mut out),
             Some(CliCommand::Play(play)) => play.run(&assets, &mut out),
             Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
+            Some(CliCommand::Replay(replay)) => replay.run(&assets, &mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),

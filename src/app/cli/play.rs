@@ -7,11 +7,14 @@ use clap::Args;
 use crate::app::cli::ending::{CommandError, Ending, tell};
 use crate::app::cli::interrupt::Interrupt;
 use crate::app::cli::options::{HostOptions, MatchOptions, SeedOption};
+use crate::app::cli::recording::RecordOption;
+use crate::app::cli::run::HeadlessRun;
 use crate::app::cli::windows;
 use crate::app::match_request::MatchRequest;
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::RobotId;
+use crate::lab::replay::{Recorded, ReplayHeader};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
 use crate::rng::DEFAULT_SEED;
 
@@ -27,6 +30,8 @@ pub(super) struct PlayCommand {
     host: HostOptions,
     #[command(flatten)]
     seed: SeedOption,
+    #[command(flatten)]
+    record: RecordOption,
     /// The robot that you drive, such as `away:3`.
     #[arg(long, value_name = "ROBOT")]
     pilot: Option<RobotId>,
@@ -38,12 +43,10 @@ impl PlayCommand {
             return self.run_scenario(assets, ScenarioRef::named(assets, name), out);
         }
         let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
-        let plan = MatchPlan::read(assets, &choice)?;
         let Some(missing) = windows::missing() else {
-            return Ok(windows::open_match_window(
-                assets,
-                self.chooses(&choice).then_some(MatchRequest::Match(choice)),
-            ));
+            MatchPlan::read(assets, &choice)?;
+            let wanted = self.chooses(&choice).then_some(MatchRequest::Match(choice));
+            return Ok(windows::open_match_window(assets, wanted, self.record.record.clone()));
         };
         if self.pilot.is_some() {
             return Err(
@@ -51,8 +54,10 @@ impl PlayCommand {
             );
         }
         let interrupt = Interrupt::listen();
+        let (header, (plan, _)) = ReplayHeader::of(Recorded::Match(choice), assets)?;
         tell(format_args!("{missing}, so the match is played headless"));
-        super::run::play_headless(&plan, false, self.options.patience(), &interrupt, out)
+        let (recorder, patience) = (self.record.begin(header)?, self.options.patience());
+        HeadlessRun { plan: &plan, patience, interrupt, recorder }.play(false, out)
     }
 
     /// Whether anything was chosen, rather than left to the menu.
@@ -70,15 +75,20 @@ impl PlayCommand {
         let mut plan = ScenarioPlan::read(assets, &scenario)?;
         let seed = self.seed.seed;
         let Some(missing) = windows::missing() else {
-            return Ok(windows::open_match_window(assets, Some(MatchRequest::Scenario { scenario, seed })));
+            let wanted = MatchRequest::Scenario { scenario, seed };
+            return Ok(windows::open_match_window(assets, Some(wanted), self.record.record.clone()));
         };
-        let interrupt = Interrupt::listen();
+        let mut interrupt = Interrupt::listen();
+        if self.record.record.is_some() {
+            let message = "a scenario without a window is recorded by `touchline check --record`";
+            return Err(DataError::new("--record", message).into());
+        }
         tell(format_args!("{missing}, so the scenario is played headless"));
         let seed = seed.or_else(|| plan.scenario.seeds.first().copied());
         plan.scenario.seeds = seed.into_iter().collect();
         plan.scenario.places.truncate(1);
         plan.scenario.may_fail = 0;
-        let report = plan.run_until(None, &|| interrupt.is_asked());
+        let report = plan.run_watched(None, &mut interrupt);
         writeln!(out, "{report}")?;
         Ok(match report.passed() {
             _ if report.interrupted => Ending::Interrupted,

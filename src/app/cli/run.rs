@@ -5,14 +5,17 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use super::ending::{CommandError, Ending, tell};
+use super::ending::{CommandError, Ending, print_json, tell};
 use super::interrupt::Interrupt;
 use super::options::{HostOptions, MatchOptions, SeedOption};
 use super::progress::progress_bar;
+use super::recording::{self, RecordOption};
 use super::run_report::RunReport;
 use crate::data::AssetFolder;
 use crate::game::net::{self, Awaited};
+use crate::game::requests::RequestLog;
 use crate::game::{Match, MatchPlan};
+use crate::lab::replay::{Recorded, Recorder, ReplayHeader};
 use crate::world::referee::RuleBook;
 
 #[derive(Args, Debug, Default)]
@@ -23,6 +26,8 @@ pub(super) struct RunCommand {
     host: HostOptions,
     #[command(flatten)]
     seed: SeedOption,
+    #[command(flatten)]
+    record: RecordOption,
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
@@ -31,60 +36,71 @@ pub(super) struct RunCommand {
 impl RunCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let choice = self.host.choice(&self.options, &self.seed)?;
-        let plan = MatchPlan::read(assets, &choice)?;
-        play_headless(&plan, self.json, self.options.patience(), &Interrupt::listen(), out)
+        let (header, (plan, _)) = ReplayHeader::of(Recorded::Match(choice), assets)?;
+        let run = HeadlessRun {
+            plan: &plan,
+            patience: self.options.patience(),
+            interrupt: Interrupt::listen(),
+            recorder: self.record.begin(header)?,
+        };
+        run.play(self.json, out)
     }
 }
 
-/// Plays a match to its end, or until it is interrupted, and prints the result; waits so long for its robots in other
-/// processes.
-///
-/// # Errors
-/// If the match needs a network that is not to be had, or the result cannot be printed.
-pub(super) fn play_headless(
-    plan: &MatchPlan,
-    json: bool,
-    patience: Duration,
-    interrupt: &Interrupt,
-    out: &mut impl Write,
-) -> Result<Ending, CommandError> {
-    let started = Instant::now();
-    let mut game = Match::new(plan);
-    net::open(game.world_mut(), plan)?;
-    await_robots(&mut game, patience, interrupt)?;
-    play_on(&mut game, plan, started, interrupt)?;
-    net::finish(game.world_mut());
-    let report = RunReport::of(&game, plan, started.elapsed().as_secs_f64());
-    if json {
-        super::ending::print_json(&report, out)?;
-    } else {
-        report.print(out)?;
-    }
-    Ok(Ending::of_run(report.interrupted))
+/// A match that is to be played to its end, or until it is interrupted.
+pub(super) struct HeadlessRun<'a> {
+    pub plan: &'a MatchPlan,
+    /// How long it waits for its robots in other processes.
+    pub patience: Duration,
+    pub interrupt: Interrupt,
+    pub recorder: Option<Recorder>,
 }
 
-fn play_on(
-    game: &mut Match,
-    plan: &MatchPlan,
-    started: Instant,
-    interrupt: &Interrupt,
-) -> Result<(), CommandError> {
-    let seconds = plan.rules.half_seconds() * f64::from(RuleBook::HALVES);
-    let bar = progress_bar(seconds as u64, "{bar:40} {pos}/{len} s of play, {msg}, {eta} left");
-    while !game.is_over() && !interrupt.is_asked() {
-        if plan.network.is_in_real_time() {
-            wait_until(started + Duration::from_secs_f64(game.clock().now()));
+impl HeadlessRun<'_> {
+    /// Plays it and prints the result.
+    ///
+    /// # Errors
+    /// If the match needs a network that is not to be had, or the result cannot be printed.
+    pub fn play(mut self, json: bool, out: &mut impl Write) -> Result<Ending, CommandError> {
+        let started = Instant::now();
+        let mut game = Match::new(self.plan);
+        if self.recorder.is_some() {
+            game.world_mut().insert_resource(RequestLog::default());
         }
-        game.tick();
-        net::check_patience(game.world())?;
-        if game.clock().tick.is_multiple_of(REPORT_EVERY) {
-            let [home, away] = game.state().score;
-            bar.set_message(format!("{home}:{away}"));
-            bar.set_position(game.record().played as u64);
+        net::open(game.world_mut(), self.plan)?;
+        await_robots(&mut game, self.patience, &self.interrupt)?;
+        let played = self.play_on(&mut game, started);
+        net::finish(game.world_mut());
+        self.recorder.take().map_or(Ok(()), recording::finish)?;
+        played?;
+        let report = RunReport::of(&game, self.plan, started.elapsed().as_secs_f64());
+        if json {
+            print_json(&report, out)?;
+        } else {
+            report.print(out)?;
         }
+        Ok(Ending::of_run(report.interrupted))
     }
-    bar.finish_and_clear();
-    Ok(())
+
+    fn play_on(&mut self, game: &mut Match, started: Instant) -> Result<(), CommandError> {
+        let seconds = self.plan.rules.half_seconds() * f64::from(RuleBook::HALVES);
+        let bar = progress_bar(seconds as u64, "{bar:40} {pos}/{len} s of play, {msg}, {eta} left");
+        while !game.is_over() && !self.interrupt.is_asked() {
+            if self.plan.network.is_in_real_time() {
+                wait_until(started + Duration::from_secs_f64(game.clock().now()));
+            }
+            game.tick();
+            self.recorder.as_mut().map_or(Ok(()), |recorder| recording::note(recorder, game))?;
+            net::check_patience(game.world())?;
+            if game.clock().tick.is_multiple_of(REPORT_EVERY) {
+                let [home, away] = game.state().score;
+                bar.set_message(format!("{home}:{away}"));
+                bar.set_position(game.record().played as u64);
+            }
+        }
+        bar.finish_and_clear();
+        Ok(())
+    }
 }
 
 /// Waits for robots in other processes, and says so if it takes more than a moment.

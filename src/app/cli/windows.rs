@@ -7,6 +7,8 @@ pub(super) use without_windows::{missing, open_chaos_window, open_match_window};
 
 #[cfg(feature = "window")]
 mod with_windows {
+    use std::path::PathBuf;
+
     use crate::app::chaos_window::KnownMatch;
     use crate::app::cli::ending::Ending;
     pub use crate::app::headless_check::missing_for_a_window as missing;
@@ -16,8 +18,13 @@ mod with_windows {
     use crate::game::MatchPlan;
     use crate::game::net::chaos::ChaosLink;
 
-    pub fn open_match_window(assets: &AssetFolder, wanted: Option<MatchRequest>) -> Ending {
-        ending(crate::app::window::open_window(assets, wanted))
+    /// What is played is recorded, if a file for it is given.
+    pub fn open_match_window(
+        assets: &AssetFolder,
+        wanted: Option<MatchRequest>,
+        record: Option<PathBuf>,
+    ) -> Ending {
+        ending(crate::app::window::open_window(assets, wanted, record))
     }
 
     pub fn open_chaos_window(assets: &AssetFolder, link: ChaosLink, game: Option<&MatchPlan>) -> Ending {
@@ -37,6 +44,8 @@ mod with_windows {
 
 #[cfg(not(feature = "window"))]
 mod without_windows {
+    use std::path::PathBuf;
+
     use crate::app::cli::ending::Ending;
     use crate::app::match_request::MatchRequest;
     use crate::data::AssetFolder;
@@ -47,7 +56,7 @@ mod without_windows {
         Some("this build has no window")
     }
 
-    pub fn open_match_window(_: &AssetFolder, _: Option<MatchRequest>) -> Ending {
+    pub fn open_match_window(_: &AssetFolder, _: Option<MatchRequest>, _: Option<PathBuf>) -> Ending {
         Ending::WindowFailed
     }
 

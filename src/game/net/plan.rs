@@ -3,13 +3,15 @@
 use std::net::{IpAddr, SocketAddr};
 use std::time::Duration;
 
+use serde::{Deserialize, Serialize};
+
 use super::chaos::ChaosPlan;
 use super::error::NetworkError;
 use crate::ids::RobotId;
 use crate::world::gamecontroller::control::{NO_TEAM, Version};
 
 /// Which parts of a match cross a network.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NetworkPlan {
     /// Team messages go by UDP and not by the simulated radio.
     pub udp: bool,

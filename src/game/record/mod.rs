@@ -16,6 +16,7 @@ mod removals;
 mod span;
 #[cfg(test)]
 mod tests;
+mod trace;
 
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
@@ -34,6 +35,7 @@ use play_tick::PlayView;
 pub use pursuit::{FARTHER, PING_PONG, Pursuit};
 pub use removals::Removals;
 pub use span::Span;
+pub use trace::{DigestPart, TickTrace, TraceDifference};
 
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};

@@ -25,5 +25,5 @@ pub use file::{BallFile, BallPlaces, PlayerFile, Referee, ScenarioFile, Seeds, S
 pub use judge::{Failure, Judge, Verdict};
 pub use plan::{ScenarioPlan, ScenarioRef};
 pub use report::{ScenarioReport, ScenarioRun, junit};
-pub use run::observe;
+pub use run::{RunWatcher, observe};
 pub use scene::{RobotScene, Scene};

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::check::{Known, KnownTeam, Scenario, ScenarioPlayer, check};
 use super::event::{Dependency, Event};
@@ -23,7 +24,7 @@ use crate::strategy::Strategy;
 use crate::strategy::teamwork::Protocol;
 
 /// A scenario: its file, and which of the file's variants it is, if there are any.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ScenarioRef {
     /// The file.
     pub path: PathBuf,
@@ -98,7 +99,7 @@ impl ScenarioPlan {
         scenario: &ScenarioRef,
         most: usize,
     ) -> Result<Vec<ScenarioPlan>, DataError> {
-        let source = Source::read(&scenario.path)?;
+        let source = assets.read(&scenario.path)?;
         let file: ScenarioFile = source.parse()?;
         let is_wanted =
             |name: &Option<&str>| scenario.variant.is_none() || scenario.variant.as_deref() == *name;
@@ -136,7 +137,7 @@ impl ScenarioPlan {
         let game = file_named(assets, source, AssetKind::Match, ("game", game))?;
         let usual = MatchPlan::read_file(assets, &game, &Choice::default())?;
         let pitch = match &file.pitch {
-            Some(name) => checked(&file_named(assets, source, AssetKind::Pitch, ("pitch", name))?)?,
+            Some(name) => checked(assets, &file_named(assets, source, AssetKind::Pitch, ("pitch", name))?)?,
             None => usual.pitch.clone(),
         };
         let home = source.required(&file.home, &Field::root(), "home")?;
@@ -157,7 +158,7 @@ impl ScenarioPlan {
         let scenario = check(file, source, &known)?;
         let mut match_plan = MatchPlan {
             name: scenario.name.clone(),
-            radio: checked(&assets.file(AssetKind::Radio, &scenario.radio))?,
+            radio: checked(assets, &assets.file(AssetKind::Radio, &scenario.radio))?,
             teams: teams.clone(),
             seed: scenario.seeds.first().copied().unwrap_or(1),
             situation: Some(situation(&scenario)),
@@ -194,7 +195,7 @@ impl ScenarioPlan {
     }
 
     /// The match with a seed and with the ball at a place.
-    pub(super) fn with_ball_at(&self, place: Vec2, seed: u64) -> MatchPlan {
+    pub fn with_ball_at(&self, place: Vec2, seed: u64) -> MatchPlan {
         let mut plan = self.with_seed(seed);
         if let Some(situation) = &mut plan.situation {
             situation.ball = place;
@@ -310,7 +311,7 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
         Event::Heal => Request::Radio(RadioChange::Heal),
         Event::Jam(jammed) => Request::Radio(RadioChange::Jam(*jammed)),
         Event::Radio(name) => {
-            Request::Radio(RadioChange::Change(checked(&assets.file(AssetKind::Radio, name))?))
+            Request::Radio(RadioChange::Change(checked(assets, &assets.file(AssetKind::Radio, name))?))
         }
         Event::Ball { at, velocity } => Request::Body(BodyChange::Ball { at: *at, velocity: *velocity }),
         Event::Push { robot, by } => Request::Body(BodyChange::Push { robot: *robot, by: *by }),

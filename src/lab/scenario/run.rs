@@ -25,20 +25,37 @@ use crate::strategy::{Activity, Role, Strategies, Strategy};
 use crate::world::ball::Ball;
 use crate::world::referee::MatchState;
 
+/// Looks on while a scenario is played, and may stop it.
+pub trait RunWatcher {
+    /// A run begins, with the ball at a place and with a seed.
+    fn begin(&mut self, _run: (Vec2, u64), _game: &mut Match) {}
+    /// A tick was played.
+    fn after_tick(&mut self, _game: &mut Match) {}
+    /// Whether to stop.
+    fn stops(&self) -> bool {
+        false
+    }
+}
+
+struct NoWatcher;
+
+impl RunWatcher for NoWatcher {}
+
 impl ScenarioPlan {
     /// Plays the scenario with the ball at each of its places and with each of its seeds.
     pub fn run(&self, without: Option<Dependency>) -> ScenarioReport {
-        self.run_until(without, &|| false)
+        self.run_watched(without, &mut NoWatcher)
     }
 
-    /// Plays the scenario with each of its seeds, or until it is to stop: then the run of that moment does not count.
-    pub fn run_until(&self, without: Option<Dependency>, stop: &dyn Fn() -> bool) -> ScenarioReport {
+    /// Plays the scenario with the ball at each of its places and with each of its seeds, or until a watcher stops it: then the
+    /// run of that moment does not count.
+    pub fn run_watched(&self, without: Option<Dependency>, watcher: &mut impl RunWatcher) -> ScenarioReport {
         let plan = without.map_or_else(|| self.clone(), |dependency| self.without(dependency));
         let Scenario { places, seeds, .. } = &self.scenario;
         let runs = places.iter().flat_map(|place| seeds.iter().map(|seed| (*place, *seed)));
         let runs = runs.map_while(|(place, seed)| {
             let start = Instant::now();
-            let verdict = plan.play_until(place, seed, stop)?;
+            let verdict = plan.play_watched(place, seed, watcher)?;
             Some(ScenarioRun { place, seed, verdict, took: start.elapsed() })
         });
         let runs: Vec<ScenarioRun> = runs.collect();
@@ -55,19 +72,21 @@ impl ScenarioPlan {
 
     /// Plays the scenario with the ball at one place and with one seed, until everything is decided.
     pub fn play(&self, place: Vec2, seed: u64) -> Verdict {
-        self.play_until(place, seed, &|| false).unwrap_or_default()
+        self.play_watched(place, seed, &mut NoWatcher).unwrap_or_default()
     }
 
-    /// As [`ScenarioPlan::play`]; `None` if it is to stop before.
-    fn play_until(&self, place: Vec2, seed: u64, stop: &dyn Fn() -> bool) -> Option<Verdict> {
+    /// As [`ScenarioPlan::play`]; `None` if it is stopped before.
+    fn play_watched(&self, place: Vec2, seed: u64, watcher: &mut impl RunWatcher) -> Option<Verdict> {
         let mut game = Match::new(&self.with_ball_at(place, seed));
+        watcher.begin((place, seed), &mut game);
         let dt = game.clock().dt;
         let mut judge = Judge::new(&self.scenario, place, dt);
         for _ in 0..self.scenario.ticks(dt) {
-            if stop() {
+            if watcher.stops() {
                 return None;
             }
             game.tick();
+            watcher.after_tick(&mut game);
             observe(game.world_mut(), &mut judge);
             if judge.is_decided() {
                 break;

@@ -6,11 +6,12 @@
 use std::fmt;
 
 use binrw::binrw;
+use serde::{Deserialize, Serialize};
 
 /// The version of a control packet, which is also the league that speaks it.
 #[binrw]
 #[brw(repr = u8)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Version {
     /// Standard Platform League, 2025.
     V18 = 18,

@@ -6,6 +6,7 @@ use crate::app::match_request::MatchRequest;
 use crate::data::AssetFolder;
 use crate::game::MatchPlan;
 use crate::ids::Team;
+use crate::lab::replay::ReplayHeader;
 use crate::lab::scenario::ScenarioPlan;
 
 /// Where the files are.
@@ -25,6 +26,8 @@ pub struct Session {
     pub plan: Option<MatchPlan>,
     /// The scenario that it belongs to.
     pub scenario: Option<ScenarioPlan>,
+    /// What a recording of it begins with; none before the first match.
+    pub header: Option<ReplayHeader>,
 }
 
 impl Session {

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::expectations::Expectations;
-use crate::app::match_request::{MatchRequest, Plans};
+use crate::app::match_request::MatchRequest;
 use crate::app::view::picture::visuals::clear;
 use crate::app::view::state::{
     FileError, Folder, MatchBegun, PendingMatch, Piloted, Playback, Screen, Selected, Session,
@@ -11,6 +11,7 @@ use crate::app::view::state::{
 use crate::clock::Clock;
 use crate::data::DataError;
 use crate::game::{net, start_match};
+use crate::lab::replay::{Plans, ReplayHeader};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Expectations>()
@@ -27,11 +28,12 @@ fn begin_pending_match(world: &mut World) {
 
 /// The plans for a request, from the files as they are now; while they are bad, what was played before can be played again
 /// from what was read then.
-fn plans_for(world: &mut World, request: &MatchRequest) -> Result<Plans, DataError> {
-    let read = request.plans(&world.resource::<Folder>().0);
+fn plans_for(world: &mut World, request: &MatchRequest) -> Result<(ReplayHeader, Plans), DataError> {
+    let read = request.read(&world.resource::<Folder>().0);
     let session = world.resource::<Session>();
     let known = session.plan.clone().filter(|_| session.request == *request);
     let known = known.map(|plan| (plan, session.scenario.clone()));
+    let known = session.header.clone().zip(known);
     match (read, known) {
         (Err(error), Some(plans)) => {
             world.resource_mut::<FileError>().0 = Some(error.to_string());
@@ -44,19 +46,21 @@ fn plans_for(world: &mut World, request: &MatchRequest) -> Result<Plans, DataErr
     }
 }
 
-fn begin(world: &mut World, request: MatchRequest, (plan, scenario): Plans) {
+fn begin(world: &mut World, request: MatchRequest, (header, (plan, scenario)): (ReplayHeader, Plans)) {
     start_match(world, &plan);
-    if let Err(error) = net::open(world, &plan) {
+    let is_live = !matches!(request, MatchRequest::Replay(_));
+    if is_live && let Err(error) = net::open(world, &plan) {
         net::close(world);
         world.resource_mut::<FileError>().0 = Some(error.to_string());
     }
+    let pilot = plan.pilot.filter(|_| is_live);
     let dt = world.resource::<Clock>().dt;
     world.insert_resource(Expectations::of(scenario.as_ref().map(|plan| &plan.scenario), dt));
-    world.insert_resource(Piloted(plan.pilot));
-    world.insert_resource(Selected(plan.pilot));
+    world.insert_resource(Piloted(pilot));
+    world.insert_resource(Selected(pilot));
     let speed = world.resource::<Playback>().speed;
     world.insert_resource(Playback { speed, ..Playback::default() });
-    world.insert_resource(Session { request, plan: Some(plan), scenario });
+    world.insert_resource(Session { request, plan: Some(plan), scenario, header: Some(header) });
     world.resource_mut::<NextState<Screen>>().set(Screen::Match);
     clear(world);
     world.trigger(MatchBegun);

@@ -4,6 +4,7 @@
 pub mod announcements;
 mod begin;
 pub mod expectations;
+pub mod recording;
 mod reload;
 pub mod remote_robots;
 
@@ -22,6 +23,7 @@ use crate::world::referee::{MatchState, Phase};
 pub(super) fn plugin(app: &mut App) {
     app.add_plugins((
         begin::plugin,
+        recording::plugin,
         reload::plugin,
         expectations::plugin,
         announcements::plugin,

@@ -3,10 +3,12 @@
 use std::fmt;
 use std::net::{IpAddr, SocketAddr};
 
+use serde::{Deserialize, Serialize};
+
 use super::table::ChaosSocket;
 
 /// Where ChaosManager is heard, and who may speak to the match through it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ChaosPlan {
     /// Of the first of three sockets, whose ports follow each other.
     pub at: SocketAddr,

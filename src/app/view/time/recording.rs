@@ -1,0 +1,100 @@
+//! What is played in the window is recorded, if that was wanted: the first match in the file that was named, each later one in a
+//! file of its own beside it.
+
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::*;
+
+use crate::app::view::state::{AfterTick, FileError, MatchBegun, Session};
+use crate::game::requests::RequestLog;
+use crate::lab::replay::Recorder;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Recording>()
+        .init_resource::<RequestLog>()
+        .add_observer(begin)
+        .add_systems(AfterTick, note)
+        .add_systems(Last, finish.run_if(on_message::<AppExit>));
+}
+
+/// Where matches are recorded, and the recording of the one that is played.
+#[derive(Resource, Debug, Default)]
+pub struct Recording {
+    wanted: Option<PathBuf>,
+    /// How many matches were recorded.
+    count: usize,
+    recorder: Option<Recorder>,
+}
+
+impl Recording {
+    /// The first match is recorded in this file.
+    pub fn to(wanted: Option<PathBuf>) -> Recording {
+        Recording { wanted, ..Recording::default() }
+    }
+
+    fn close(&mut self) -> Option<String> {
+        let recorder = self.recorder.take()?;
+        let path = recorder.path().to_owned();
+        recorder.finish().err().map(|error| cannot_write(&path, &error))
+    }
+}
+
+fn begin(
+    _: On<MatchBegun>,
+    session: Res<Session>,
+    mut recording: ResMut<Recording>,
+    mut file_error: ResMut<FileError>,
+) {
+    let closed = recording.close();
+    let (Some(wanted), Some(header)) = (&recording.wanted, &session.header) else { return };
+    let path = numbered(wanted, recording.count + 1);
+    let created = Recorder::create(&path, header.clone());
+    let error = created.map(|recorder| recording.recorder = Some(recorder)).err();
+    recording.count += 1;
+    if let Some(error) = closed.or(error.map(|error| cannot_write(&path, &error))) {
+        file_error.0 = Some(error);
+    }
+}
+
+/// `mine.replay`, then `mine-2.replay`.
+fn numbered(path: &Path, number: usize) -> PathBuf {
+    if number < 2 {
+        return path.to_owned();
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let extension = path.extension().map(|it| format!(".{}", it.to_string_lossy()));
+    path.with_file_name(format!("{stem}-{number}{}", extension.unwrap_or_default()))
+}
+
+fn note(world: &mut World) {
+    world.resource_scope(|world, mut recording: Mut<Recording>| {
+        let Some(recorder) = &mut recording.recorder else { return };
+        if let Err(error) = recorder.note(world) {
+            let message = cannot_write(recorder.path(), &error);
+            world.resource_mut::<FileError>().0 = Some(format!("{message}. It is not recorded any more"));
+            recording.recorder = None;
+        }
+    });
+}
+
+/// The last seconds are recorded when the window closes.
+fn finish(mut recording: ResMut<Recording>) {
+    recording.close();
+}
+
+fn cannot_write(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: cannot be written: {error}", path.display())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn later_matches_are_recorded_beside_the_first() {
+        let first = Path::new("there/mine.replay");
+        assert_eq!(numbered(first, 1), first);
+        assert_eq!(numbered(first, 2), Path::new("there/mine-2.replay"));
+        assert_eq!(numbered(Path::new("mine"), 3), Path::new("mine-3"));
+    }
+}

@@ -1,0 +1,153 @@
+//! Writes a replay while the match is played.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::mem::take;
+use std::path::Path;
+
+use bevy::prelude::*;
+
+use super::block::{Block, Bookmark, KeptRequest};
+use super::frame;
+use super::header::ReplayHeader;
+use super::reader::{Replay, first_line};
+use super::states::hashes;
+use crate::clock::{Clock, TICK_HZ};
+use crate::game::record::{Record, TickTrace};
+use crate::game::requests::RequestLog;
+
+/// Blocks between two with hashes of all state: those take a few milliseconds.
+const STATES_EVERY: usize = 10;
+
+/// Writes a replay while the match is played.
+#[derive(Resource, Debug)]
+pub struct Recorder {
+    file: File,
+    written: Replay,
+    /// The second that is played.
+    block: Block,
+    /// How many ticks are recorded.
+    ticks: u64,
+}
+
+impl Recorder {
+    /// Begins a file, in place of one that is there.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn create(path: &Path, header: ReplayHeader) -> io::Result<Recorder> {
+        let written = Replay { path: path.to_owned(), header, blocks: Vec::new(), is_whole: false };
+        Recorder::rewrite(written)
+    }
+
+    /// Begins the file of a branch: what was recorded here before a tick, and what will be played from there on.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn branch(&self, tick: u64, path: &Path) -> io::Result<Recorder> {
+        let mut replay = Replay { path: path.to_owned(), is_whole: false, ..self.written.clone() };
+        replay.blocks.push(self.block.clone());
+        replay.header.branched = Some(tick);
+        Recorder::rewrite(replay.before(tick))
+    }
+
+    fn rewrite(mut replay: Replay) -> io::Result<Recorder> {
+        let mut bytes = first_line().into_bytes();
+        bytes.extend(frame::write(&replay.header)?);
+        for block in replay.blocks.iter().filter(|block| block.is_full()) {
+            bytes.extend(frame::write(block)?);
+        }
+        let mut file = File::create(&replay.path)?;
+        file.write_all(&bytes)?;
+        let ticks = replay.ticks();
+        let block = replay.blocks.pop_if(|block| !block.is_full()).unwrap_or_default();
+        Ok(Recorder { file, written: replay, block, ticks })
+    }
+
+    /// Records the tick that was just played. One that is recorded already, as after a look back, is passed over.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn note(&mut self, world: &mut World) -> io::Result<()> {
+        let tick = self.ticks;
+        if world.resource::<Clock>().tick != tick + 1 {
+            return Ok(());
+        }
+        if let Some(RequestLog(log)) = world.get_resource() {
+            let first = log.partition_point(|(of, _)| *of < tick);
+            let due = log[first..].iter().filter(|(of, _)| *of == tick);
+            self.block.requests.extend(due.map(|(of, request)| (*of, KeptRequest::of(request))));
+        }
+        self.block.traces.push(&TickTrace::take(world));
+        self.block.digest = world.resource::<Record>().digest;
+        self.ticks += 1;
+        if !self.block.is_full() {
+            return Ok(());
+        }
+        if self.written.blocks.len() % STATES_EVERY == STATES_EVERY - 1 {
+            self.block.states = Some(hashes(world).0);
+        }
+        self.write()
+    }
+
+    /// Notes something about a tick.
+    pub fn mark(&mut self, bookmark: Bookmark) {
+        self.block.bookmarks.push(bookmark);
+    }
+
+    /// How many ticks are recorded.
+    pub fn ticks(&self) -> u64 {
+        self.ticks
+    }
+
+    /// Where it is written.
+    pub fn path(&self) -> &Path {
+        &self.written.path
+    }
+
+    /// Ends the recording.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.block.is_last = true;
+        if self.block.traces.len() == 0 {
+            self.block.digest = self.written.digest().unwrap_or_default();
+        }
+        self.write()
+    }
+
+    /// One frame in one call: it is in the file or it is not.
+    fn write(&mut self) -> io::Result<()> {
+        let block = take(&mut self.block);
+        let written = frame::write(&block).and_then(|bytes| self.file.write_all(&bytes));
+        self.written.blocks.push(block);
+        written
+    }
+}
+
+impl Block {
+    fn is_full(&self) -> bool {
+        self.traces.len() >= TICK_HZ as u64
+    }
+}
+
+impl Replay {
+    /// The same up to a tick.
+    fn before(mut self, tick: u64) -> Replay {
+        let mut first = 0;
+        for block in &mut self.blocks {
+            let kept = tick.saturating_sub(first).min(block.traces.len());
+            first += block.traces.len();
+            if kept < block.traces.len() {
+                block.traces.truncate(kept as usize);
+                block.states = None;
+            }
+            block.is_last = false;
+            block.requests.retain(|(of, _)| *of < tick);
+            block.bookmarks.retain(|bookmark| bookmark.tick <= tick);
+        }
+        self.blocks.retain(|block| block.traces.len() > 0);
+        self
+    }
+}
