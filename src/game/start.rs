@@ -12,7 +12,7 @@ use crate::comms::tcm::Addresses;
 use crate::ids::{MatchEntity, RobotId, Team};
 use crate::rng::{Dice, Seed};
 use crate::state;
-use crate::strategy::Strategies;
+use crate::strategy::{Strategies, StrategySources};
 use crate::world::physics::open_world;
 use crate::world::referee::MatchState;
 use crate::world::sense::{HallLight, Light};
@@ -57,6 +57,7 @@ fn begin(world: &mut World, plan: &MatchPlan) {
     world.insert_resource(plan.pitch.clone());
     world.insert_resource(plan.ball);
     world.insert_resource(Strategies(plan.teams.each_ref().map(|team| team.strategy.clone())));
+    world.insert_resource(StrategySources(plan.teams.each_ref().map(|team| team.strategy_texts.clone())));
     world.insert_resource(Addresses(plan.directory()));
     world.insert_resource(plan.tcm);
 }

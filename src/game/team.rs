@@ -14,7 +14,7 @@ use crate::ids::PlayerNumber;
 use crate::pitch::{BallKind, Pitch};
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::teamwork::TeamworkFile;
-use crate::strategy::{Strategy, StrategyReading, TeamworkChange};
+use crate::strategy::{Strategy, StrategyReading, StrategyTexts, TeamworkChange};
 use crate::vision::CameraCalibration;
 
 /// One side of a match: names of files.
@@ -94,6 +94,8 @@ pub struct TeamPlan {
     pub strategy: Arc<Strategy>,
     /// The files that the strategy rests on, its own first.
     pub strategy_files: Vec<PathBuf>,
+    /// The texts of those that are there.
+    pub strategy_texts: Arc<StrategyTexts>,
     /// What of the strategy's teamwork the match or the scenario replaces.
     pub teamwork_change: TeamworkChange,
     /// The roles by number that a scenario gives to players at kick-off in place of the strategy's.
@@ -132,6 +134,7 @@ impl TeamPlan {
             senses_of: others.collect::<Result<_, DataError>>()?,
             strategy: Arc::new(strategy),
             strategy_files: reading.files,
+            strategy_texts: reading.texts,
             teamwork_change: change,
             kind: Arc::new(kind),
             names: names.clone(),

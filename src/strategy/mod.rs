@@ -17,9 +17,12 @@ mod role;
 pub mod team_ball;
 pub mod teamwork;
 
+use std::fmt;
+use std::hash::BuildHasher;
 use std::sync::Arc;
 
 use bevy::prelude::*;
+use xxhash_rust::xxh3::Xxh3DefaultBuilder;
 
 use crate::ids::Team;
 pub use activity::{Activity, Searched, TransitionTaken, played};
@@ -35,6 +38,18 @@ pub use role::{Role, RoleRef};
 /// The strategies of a match, home first. They change only in the Script stage.
 #[derive(Resource, Clone, Debug)]
 pub struct Strategies(pub [Arc<Strategy>; 2]);
+
+/// What the strategies of a match were read from, home first.
+#[derive(Resource, Clone, Default)]
+pub struct StrategySources(pub [Arc<StrategyTexts>; 2]);
+
+/// Texts are long.
+impl fmt::Debug for StrategySources {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hashes = self.0.each_ref().map(|texts| Xxh3DefaultBuilder.hash_one(texts));
+        write!(f, "{hashes:x?}")
+    }
+}
 
 impl Strategies {
     /// A team's strategy.

@@ -30,7 +30,7 @@ pub struct StrategyReading {
 }
 
 /// The texts that a strategy was read from: from them it can be read again.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Hash, Serialize, Deserialize)]
 pub struct StrategyTexts {
     /// Its own file.
     pub path: PathBuf,

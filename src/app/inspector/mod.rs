@@ -7,6 +7,7 @@ mod calibration;
 mod communication;
 mod low_panel;
 mod matching;
+mod numbers;
 mod outlines;
 mod overlays;
 mod panel;

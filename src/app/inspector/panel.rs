@@ -5,6 +5,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 
+use super::numbers::NumberDesk;
 use super::sections::{self, PanelActions};
 use super::subject::{InspectedMatch, SelectedRobot};
 use crate::app::view::input::keyboard::Keyboard;
@@ -14,8 +15,10 @@ use crate::app::view::state::{
     Action, Edge, FreeArea, Inspector, PanelSizes, PanelSystems, Piloted, RememberedPanels, Screen, Session,
 };
 use crate::game::requests::Requests;
+use crate::strategy::StrategySources;
 
 pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<NumberDesk>();
     app.add_systems(EguiPrimaryContextPass, dock.in_set(PanelSystems::Right).run_if(in_state(Screen::Match)));
 }
 
@@ -36,6 +39,8 @@ struct Changes<'w> {
     remembered: ResMut<'w, RememberedPanels>,
     keyboard: Res<'w, Keyboard>,
     session: Res<'w, Session>,
+    numbers: ResMut<'w, NumberDesk>,
+    sources: Res<'w, StrategySources>,
 }
 
 fn dock(
@@ -80,7 +85,9 @@ fn fill(ui: &mut egui::Ui, robot: &SelectedRobot, changes: &mut Changes) {
         requests: &mut changes.requests,
         piloted: &mut piloted,
         control: &mut changes.control,
-        file: changes.session.plan.as_ref().map(|plan| plan.team(robot.id.team)),
+        plan: changes.session.plan.as_ref(),
+        numbers: &mut changes.numbers,
+        sources: &changes.sources,
         open: &mut changes.inspector.open,
         playing: &mut changes.remembered.playing,
         keyboard: &changes.keyboard,

@@ -22,7 +22,7 @@ use bevy::prelude::*;
 
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
-use crate::strategy::Strategies;
+use crate::strategy::{Strategies, StrategySources};
 use crate::world::referee::PenaltiesDue;
 pub use queue::{RequestLog, Requests, Script};
 pub use request::{
@@ -57,7 +57,9 @@ pub(crate) fn door(app: &mut App) {
     app.match_resource::<Requests>().starts_empty();
     app.match_resource::<RequestLog>();
     app.match_resource::<Strategies>();
+    app.match_resource::<StrategySources>();
     app.init_resource::<PenaltiesDue>()
+        .init_resource::<StrategySources>()
         .configure_sets(Tick, order.chain().in_set(TickSystems::Script))
         .add_systems(Tick, queue::open_door.in_set(DoorSystems::Open))
         .add_systems(Tick, of_minds.chain().in_set(DoorSystems::CarryOut));

@@ -11,18 +11,21 @@ use crate::data::Bound;
 use crate::ids::{RobotId, Team};
 use crate::robot::StrategyChanged;
 use crate::state::event;
-use crate::strategy::{Strategies, Strategy};
+use crate::strategy::{Strategies, Strategy, StrategySources};
 
 pub(super) fn change_strategies(
     clock: Res<Clock>,
     requests: Res<Requests>,
-    mut strategies: ResMut<Strategies>,
+    (mut strategies, mut sources): (ResMut<Strategies>, ResMut<StrategySources>),
     mut commands: Commands,
     robots: Query<(Entity, &RobotId)>,
 ) {
     for request in requests.due() {
         match request {
-            Request::ChangeStrategy { team, strategy, .. } => {
+            Request::ChangeStrategy { team, strategy, texts }
+                if strategy.can_follow(strategies.of(*team)).is_ok() =>
+            {
+                sources.0[team.index()] = texts.clone();
                 change_strategy(*team, strategy, &clock, &mut strategies, (&mut commands, &robots));
             }
             Request::SetWeight { team, assemblage, term, weight } if weight.is_finite() => {
@@ -44,9 +47,6 @@ fn change_strategy(
     strategies: &mut Strategies,
     (commands, robots): (&mut Commands, &Query<(Entity, &RobotId)>),
 ) {
-    if new.can_follow(strategies.of(team)).is_err() {
-        return;
-    }
     let old = std::mem::replace(&mut strategies.0[team.index()], new.clone());
     let changed = StrategyChanged { old, new: new.clone(), tick: clock.tick };
     for (robot, _) in robots.iter().filter(|(_, id)| id.team == team) {

@@ -21,7 +21,9 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut Panel
         _ => None,
     });
     let mut values = pending.shown();
-    let file = actions.file.map(|team| RobotValues::of(&team.kind, &team.senses(robot.id.number).sensing));
+    let file = actions
+        .file(robot.id.team)
+        .map(|team| RobotValues::of(&team.kind, &team.senses(robot.id.number).sensing));
     let mut file = file.unwrap_or_else(|| values.clone());
     let before = values.clone();
     ui.horizontal(|ui| {

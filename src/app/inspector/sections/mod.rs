@@ -14,6 +14,7 @@ use bevy_egui::egui;
 pub use panel_actions::PanelActions;
 pub use teleoperation::TeleoperatedBody;
 
+use super::numbers::{self, RunningTexts};
 use super::subject::SelectedRobot;
 
 /// Draws who the robot is, which stays in sight.
@@ -28,7 +29,15 @@ pub fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions
     section(ui, "Motor", true, |ui| motor::draw(ui, robot, actions));
     section(ui, "Beliefs beside the truth", true, |ui| beliefs::draw(ui, robot));
     section(ui, "Percepts", true, |ui| percepts::draw(ui, robot));
+    section(ui, "Every number of the strategy", false, |ui| draw_numbers(ui, robot, actions));
     section(ui, "Calibration", false, |ui| calibration::draw(ui, robot, actions));
+}
+
+fn draw_numbers(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
+    let team = robot.id.team;
+    let Some(plan) = actions.plan else { return };
+    let texts = RunningTexts { team, running: &actions.sources.0[team.index()], plan };
+    numbers::draw(ui, texts, actions.numbers, actions.requests);
 }
 
 fn section(ui: &mut egui::Ui, title: &str, open: bool, contents: impl FnOnce(&mut egui::Ui)) {

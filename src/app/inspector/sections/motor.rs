@@ -119,7 +119,7 @@ fn weight(ui: &mut egui::Ui, place: Place, in_force: f32, actions: &mut PanelAct
     });
     let before = pending.shown();
     let mut wanted = before;
-    let filed = actions.file.and_then(|plan| place.weight(&plan.strategy)).unwrap_or(in_force);
+    let filed = actions.file(place.team).and_then(|plan| place.weight(&plan.strategy)).unwrap_or(in_force);
     WEIGHT.show(ui, &mut wanted, filed);
     if wanted != before && wanted.is_finite() {
         let Place { team, assemblage, term } = place;

@@ -109,6 +109,7 @@ fn take_over_changes(
                 let plan = &mut plan.teams[team.index()];
                 plan.strategy = strategy.clone();
                 plan.strategy_files = reading.files;
+                plan.strategy_texts = reading.texts.clone();
                 requests.ask(Request::ChangeStrategy { team, strategy, texts: reading.texts });
             }
             Err(error) => file_error.0 = Some(format!("{error}. The {team} team plays on with what it had")),
