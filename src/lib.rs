@@ -43,7 +43,7 @@
 //! | [`world`] | the truth: physics, ball, drive, senses, referee |
 //! | [`mind`] | what a robot believes and decides |
 //! | [`game`] | a match from plan to digest, requests, sockets |
-//! | [`lab`] | scenarios |
+//! | [`lab`] | scenarios, going back in a match |
 //! | [`app`] | the command line and the window |
 //!
 //! # The way of the data

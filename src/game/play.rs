@@ -25,6 +25,11 @@ impl Match {
         Match { app }
     }
 
+    /// The world of the match alone, in which [`Tick`] runs.
+    pub fn into_world(mut self) -> World {
+        std::mem::take(self.app.world_mut())
+    }
+
     /// Plays one tick.
     pub fn tick(&mut self) {
         let world = self.app.world_mut();

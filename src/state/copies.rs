@@ -4,7 +4,7 @@ use std::any::Any;
 use std::fmt::Debug;
 use std::marker::PhantomData;
 
-use bevy::ecs::component::Mutable;
+use bevy::ecs::component::{ComponentId, Mutable};
 use bevy::prelude::*;
 
 /// A copy of one component or resource.
@@ -12,6 +12,8 @@ pub(super) type SavedState = Box<dyn Any + Send + Sync>;
 
 /// How a type of state is copied, put back and told.
 pub(super) trait Copies: Send + Sync {
+    /// Bevy's number of the type, which each world gives for itself.
+    fn id(&self, world: &World) -> Option<ComponentId>;
     fn save(&self, owner: EntityRef) -> Option<SavedState>;
     fn load(&self, owner: &mut EntityWorldMut, saved: &SavedState);
     fn remove(&self, owner: &mut EntityWorldMut);
@@ -22,6 +24,10 @@ pub(super) trait Copies: Send + Sync {
 pub(super) struct Whole<T>(pub PhantomData<T>);
 
 impl<T: Component + Clone + Debug> Copies for Whole<T> {
+    fn id(&self, world: &World) -> Option<ComponentId> {
+        world.component_id::<T>()
+    }
+
     fn save(&self, owner: EntityRef) -> Option<SavedState> {
         owner.get::<T>().map(|value| Box::new(value.clone()) as SavedState)
     }
@@ -49,6 +55,10 @@ pub(super) struct InParts<T, C> {
 }
 
 impl<T: Component<Mutability = Mutable>, C: Any + Send + Sync> Copies for InParts<T, C> {
+    fn id(&self, world: &World) -> Option<ComponentId> {
+        world.component_id::<T>()
+    }
+
     fn save(&self, owner: EntityRef) -> Option<SavedState> {
         owner.get::<T>().map(|value| Box::new((self.save)(value)) as SavedState)
     }

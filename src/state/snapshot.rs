@@ -170,7 +170,8 @@ impl StateKind {
     /// Bevy keeps a resource as a component of an entity of its own.
     fn owner(&self, world: &World, entity: Option<Entity>) -> Option<Entity> {
         match entity {
-            None => world.resource_entities().get(self.id).filter(|_| self.is_resource),
+            None if self.is_resource => world.resource_entities().get(self.copies.id(world)?),
+            None => None,
             Some(_) => entity.filter(|_| !self.is_resource),
         }
     }

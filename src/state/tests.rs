@@ -89,3 +89,23 @@ fn a_difference_names_entity_component_and_line() {
     let difference = before.difference(&after).unwrap();
     assert_eq!(difference.to_string(), "walker's Steps: `1,` and then `2,`");
 }
+
+#[derive(Resource, Clone, Debug, PartialEq)]
+struct Other(u32);
+
+#[test]
+fn a_match_is_put_back_into_a_world_that_has_more_in_it_and_numbers_its_types_otherwise() {
+    let mut first = app();
+    first.insert_resource(Total(5));
+    arrive(first.world_mut(), "walker", 3);
+    let snapshot = Snapshot::take(first.world_mut());
+    let mut second = App::new();
+    second.insert_resource(Other(7)).insert_resource(Total(0));
+    second.match_resource::<Total>();
+    second.match_component::<Steps>().starts(|arrives: &Arrives, _| Steps(arrives.0));
+    let walker = arrive(second.world_mut(), "walker", 1);
+    snapshot.restore(second.world_mut()).unwrap();
+    let world = second.world();
+    assert_eq!((world.get(walker), world.get(walker)), (Some(&Steps(3)), Some(&Echo(0))));
+    assert_eq!((world.resource::<Total>(), world.resource::<Other>()), (&Total(5), &Other(7)));
+}

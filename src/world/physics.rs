@@ -22,7 +22,7 @@ use crate::geometry::{Pose, Twist};
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
 use footprint::place_of;
-pub use footprint::{Footprint, trailer_shape, unit_shapes};
+pub use footprint::{Footprint, nearest_free, trailer_shape, unit_shapes};
 pub use put::{Put, push};
 pub use walls::wall_boxes;
 

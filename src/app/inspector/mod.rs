@@ -21,6 +21,8 @@ pub(in crate::app) mod vision;
 mod world_view;
 
 pub(in crate::app) use panel::set_close;
+#[cfg(test)]
+pub(in crate::app) use radio::RadioView;
 
 use bevy::prelude::*;
 

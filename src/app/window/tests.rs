@@ -1,6 +1,7 @@
 //! The whole interface laid out without a window or a graphics adapter, in windows and with panels that people may have.
 
 mod camera;
+mod rewind;
 mod silent_robots;
 
 use std::time::Duration;
@@ -49,6 +50,8 @@ struct LaidOutFrame {
     layers: Vec<(egui::Order, Vec<Rect>)>,
     /// Texts, and whether each is seen whole.
     texts: Vec<(String, bool)>,
+    /// Where each of them is.
+    places: Vec<(String, Rect)>,
     /// The grounds of panels and the like, with their colours.
     grounds: Vec<(Rect, egui::Color32)>,
     /// Pictures, such as those of a robot's camera.
@@ -137,6 +140,7 @@ impl LaidOutWindow {
         self.app.world_mut().run_schedule(EguiPrimaryContextPass);
         let output = self.ctx.end_pass();
         let mut texts = Vec::new();
+        let mut places = Vec::new();
         let mut grounds = Vec::new();
         let mut pictures = Vec::new();
         for clipped in &output.shapes {
@@ -148,7 +152,7 @@ impl LaidOutWindow {
             {
                 pictures.push(mesh.calc_bounds());
             }
-            collect_texts(&clipped.shape, clipped.clip_rect.intersect(screen), &mut texts);
+            collect_texts(&clipped.shape, clipped.clip_rect.intersect(screen), &mut texts, &mut places);
         }
         self.ctx.tessellate(output.shapes, output.pixels_per_point);
         let layers = self.ctx.viewport(|viewport| {
@@ -157,16 +161,22 @@ impl LaidOutWindow {
         });
         let in_match = self.app.world().resource::<Session>().plan.is_some();
         let free = if in_match { self.app.world().resource::<FreeArea>().0 } else { Rect::NOTHING };
-        LaidOutFrame { screen, layers, texts, grounds, pictures, free }
+        LaidOutFrame { screen, layers, texts, places, grounds, pictures, free }
     }
 }
 
-fn collect_texts(shape: &egui::Shape, seen: Rect, texts: &mut Vec<(String, bool)>) {
+fn collect_texts(
+    shape: &egui::Shape,
+    seen: Rect,
+    texts: &mut Vec<(String, bool)>,
+    places: &mut Vec<(String, Rect)>,
+) {
     match shape {
-        egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect_texts(shape, seen, texts)),
+        egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect_texts(shape, seen, texts, places)),
         egui::Shape::Text(text) => {
             let rect = text.galley.rect.translate(text.pos.to_vec2()).shrink(1.0);
             texts.push((text.galley.text().to_owned(), seen.contains_rect(rect)));
+            places.push((text.galley.text().to_owned(), rect));
         }
         _ => {}
     }

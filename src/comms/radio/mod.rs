@@ -3,6 +3,7 @@
 
 mod channel;
 mod faults;
+mod hand;
 mod interference;
 mod packet;
 mod preset;
@@ -16,8 +17,9 @@ use smallvec::SmallVec;
 
 pub use channel::{Channel, Delivery, Loss};
 pub use faults::{FaultRule, FaultRules};
+pub(crate) use hand::{deliver_packet, drop_packet};
 pub use interference::{Interference, Partition};
-pub use packet::Packet;
+pub use packet::{InFlight, Packet};
 pub use preset::Radio;
 pub use record::{LinkCounters, RadioRecord, Transmission, TransmissionState};
 
@@ -47,20 +49,6 @@ pub(super) fn plugin(app: &mut App) {
 /// The simulated radio, which stands by where datagrams cross a real network.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RadioSystems;
-
-/// A packet, or a second copy of it, on its way.
-#[derive(Component, Clone, Debug, PartialEq)]
-#[component(immutable)]
-pub struct InFlight {
-    /// That of its [`Transmission`].
-    pub id: u64,
-    /// What is under way.
-    pub packet: Packet,
-    /// The tick in which it arrives.
-    pub due: u64,
-    /// It takes longer than the radio's ordinary delay.
-    pub late: bool,
-}
 
 /// The radio of a match: all that decides which packets arrive, and the record of them.
 #[derive(SystemParam)]

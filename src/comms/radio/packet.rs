@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use bevy::prelude::Component;
+
 use crate::comms::tcm::{DataType, Datagram};
 use crate::ids::RobotId;
 
@@ -24,4 +26,18 @@ impl Packet {
         let (from, to) = (datagram.from, datagram.to.robot()?);
         Some(Packet { kind: datagram.kind, from, to, bytes: datagram.bytes.clone() })
     }
+}
+
+/// A packet, or a second copy of it, on its way.
+#[derive(Component, Clone, Debug, PartialEq)]
+#[component(immutable)]
+pub struct InFlight {
+    /// That of its [`Transmission`](super::Transmission).
+    pub id: u64,
+    /// What is under way.
+    pub packet: Packet,
+    /// The tick in which it arrives.
+    pub due: u64,
+    /// It takes longer than the radio's ordinary delay.
+    pub late: bool,
 }

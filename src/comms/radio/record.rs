@@ -117,6 +117,20 @@ impl RadioRecord {
         self.settle(id, TransmissionState::Lost(reason));
     }
 
+    /// A packet that was lost is sent once more by hand, as a duplicate that arrives in this tick. Returns it, if it is still
+    /// known and was lost.
+    pub(super) fn send_again(&mut self, id: u64, due: u64) -> Option<Packet> {
+        let entry = self.transmissions.iter_mut().find(|entry| entry.id == id)?;
+        if !matches!(entry.state, TransmissionState::Lost(_)) {
+            return None;
+        }
+        (entry.state, entry.late) = (TransmissionState::InFlight(due), true);
+        let packet = entry.packet.clone();
+        let link = self.link_of(&packet);
+        (link.duplicated, link.late) = (link.duplicated + 1, link.late + 1);
+        Some(packet)
+    }
+
     fn link_of(&mut self, packet: &Packet) -> &mut LinkCounters {
         self.links.entry((packet.from, packet.to, packet.kind)).or_default()
     }
@@ -279,6 +293,20 @@ mod tests {
         let total = record.total();
         assert_eq!((total.sent, total.duplicated, total.late, total.bytes), (1, 2, 3, 20));
         assert_eq!((total.delivered, total.under_way()), (1, 2));
+    }
+
+    #[test]
+    fn a_lost_packet_that_is_sent_again_by_hand_is_a_duplicate_under_way() {
+        let mut record = RadioRecord::default();
+        let id = record.sent(&packet(0, 1, 20), &Delivery::lost(Loss::Chance), 0);
+        assert_eq!(record.send_again(id, 5), Some(packet(0, 1, 20)));
+        assert_eq!(record.send_again(id, 5), None, "it is on its way");
+        assert_eq!(record.send_again(id + 1, 5), None, "nobody sent it");
+        assert_eq!(record.total().under_way(), 1);
+        record.delivered(id, &packet(0, 1, 20), 5);
+        let total = record.total();
+        assert_eq!((total.sent, total.lost_in_all(), total.delivered, total.under_way()), (1, 1, 1, 0));
+        assert_eq!(record.transmissions().next().map(|sent| sent.state), Some(TransmissionState::Arrived(5)));
     }
 
     #[test]

@@ -111,6 +111,11 @@ impl UdpCarrier {
         UdpCarrier { conns, ..UdpCarrier::default() }
     }
 
+    /// Whether it has any socket.
+    pub(super) fn is_open(&self) -> bool {
+        !self.conns.is_empty()
+    }
+
     /// The same sockets, for another match.
     pub(super) fn renewed(self) -> UdpCarrier {
         UdpCarrier::of(self.conns)

@@ -161,6 +161,14 @@ pub fn close(world: &mut World) {
     hand_over(world, &[]);
 }
 
+/// Whether the match in a world hears or speaks over sockets; what has come over them is in its requests.
+pub fn is_open(world: &World) -> bool {
+    let carrier = world.get_resource::<UdpCarrier>();
+    world.contains_resource::<Sockets>()
+        || world.contains_resource::<LeaguePorts>()
+        || carrier.is_some_and(UdpCarrier::is_open)
+}
+
 /// The decisions of these robots are made in other processes.
 fn hand_over(world: &mut World, remote: &[RobotId]) {
     let mut robots = world.query::<(&RobotId, &mut Robot)>();

@@ -20,6 +20,11 @@ impl Script {
         planned.sort_by_key(|(tick, _)| *tick);
         Script(planned.into())
     }
+
+    /// All that is still planned, the next one first; the script has none of it any more.
+    pub fn take(&mut self) -> Vec<(u64, Request)> {
+        std::mem::take(&mut self.0).into()
+    }
 }
 
 /// Makes the requests that are due.

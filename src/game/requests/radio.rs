@@ -4,7 +4,7 @@ use bevy::prelude::*;
 
 use super::queue::Requests;
 use super::request::{RadioChange, Request};
-use crate::comms::radio::{Channel, FaultRules, Interference};
+use crate::comms::radio::{Channel, FaultRules, Interference, deliver_packet, drop_packet};
 use crate::data::{Bound, Validate};
 
 pub(super) fn change_radio(
@@ -12,6 +12,7 @@ pub(super) fn change_radio(
     mut channel: ResMut<Channel>,
     mut interference: ResMut<Interference>,
     mut faults: ResMut<FaultRules>,
+    mut commands: Commands,
 ) {
     for request in requests.due() {
         let Request::Radio(change) = request else { continue };
@@ -31,6 +32,14 @@ pub(super) fn change_radio(
             RadioChange::Heal => interference.partitions.clear(),
             RadioChange::Fault(rule) if rule.validate().is_err() => {}
             RadioChange::Fault(rule) => faults.add(rule.clone()),
+            RadioChange::Drop(id) => {
+                let id = *id;
+                commands.queue(move |world: &mut World| drop_packet(world, id));
+            }
+            RadioChange::Deliver(id) => {
+                let id = *id;
+                commands.queue(move |world: &mut World| deliver_packet(world, id));
+            }
         }
     }
 }

@@ -105,6 +105,10 @@ pub enum RadioChange {
     Heal,
     /// One more fault rule.
     Fault(FaultRule),
+    /// A packet that is under way is lost, by the number of its [transmission](crate::comms::radio::Transmission).
+    Drop(u64),
+    /// A packet that is under way or was lost arrives now, by the number of its transmission.
+    Deliver(u64),
 }
 
 /// A hand on the pitch.

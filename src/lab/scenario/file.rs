@@ -22,38 +22,50 @@ pub struct ScenarioFile {
     /// Where the claim comes from, such as "Hammerheads 2001, section VI-B"; needed.
     pub source: Option<String>,
     /// More about it, for people.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub description: Option<String>,
     /// The match whose pitch, ball and rules it has, by its file's name; `friendly` if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub game: Option<String>,
     /// Another pitch than that match's, by its file's name.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch: Option<String>,
     /// A radio, by its file's name; `perfect` if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub radio: Option<String>,
     /// The seeds that it is played with; ten if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub seeds: Option<Seeds>,
     /// With how many of the seeds it may fail, at each place of the ball; none if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub may_fail: Option<u16>,
     /// How long it takes; needed.
     pub seconds: Option<f32>,
     /// Whether the rules of a match are enforced; they are not if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub referee: Option<Referee>,
     /// The home team; needed.
     pub home: Option<SideFile>,
     /// The away team; nobody if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub away: Option<SideFile>,
     /// Where the ball starts; needed.
     pub ball: Option<BallFile>,
     /// What the radio does to which packets.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<FaultRule>,
     /// What happens when.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub script: Vec<TimedEvent>,
     /// What must hold.
     pub expect: Vec<Expectation>,
     /// What the scenario is about: without it, it must fail.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub depends_on: Option<Dependency>,
     /// Scenarios of which each is this file with changes: `faults`, `script` and `expect` are added to the file's own, sides are
     /// filled field by field, and anything else takes the place of what the file says. A file with variants is played as
     /// each of them, and not by itself.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub variants: BTreeMap<String, ScenarioFile>,
 }
 
@@ -99,6 +111,11 @@ impl ScenarioFile {
     }
 }
 
+/// Whether a value need not be written.
+fn is_usual<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 /// The seeds that a scenario is played with: `10` for 1 to 10, or a list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a number of seeds or a list of seeds")]
@@ -142,15 +159,20 @@ pub struct SideFile {
     /// The strategy's file; needed.
     pub strategy: Option<String>,
     /// What differs from the strategy's own `teamwork`, field by field.
+    #[serde(skip_serializing_if = "is_usual")]
     pub teamwork: TeamworkFile,
     /// The file of the robots' kind; `cye` if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<String>,
     /// The file of the robots' senses; `perfect` if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub sensing: Option<String>,
     /// All of the strategy's players, at the places of one of its line-ups; those for its own kick-off if neither this nor
     /// `players` is given.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub line_up: Option<String>,
     /// The robots that take part.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub players: Option<Vec<PlayerFile>>,
 }
 
@@ -197,10 +219,10 @@ pub struct PlayerFile {
     #[serde(default)]
     pub facing: f32,
     /// The strategy's role for that number if not given.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub role: Option<String>,
     /// Stands on the pitch switched off.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "is_usual")]
     pub off: bool,
 }
 

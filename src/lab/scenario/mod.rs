@@ -3,6 +3,7 @@
 //! A file in `assets/scenarios` is parsed into a [`ScenarioFile`] and checked into a [`Scenario`]. While it is played, a
 //! [`Judge`] looks at the [`Scene`] of each tick; its [`Verdict`]s over all seeds make a [`ScenarioReport`].
 
+mod capture;
 mod check;
 mod condition;
 mod event;
@@ -18,6 +19,7 @@ mod stage;
 mod watch;
 mod words;
 
+pub use capture::CapturedMoment;
 pub use check::{Known, KnownTeam, Scenario, ScenarioPlayer, check};
 pub use condition::{Area, Condition, Expectation, Packets, Thing};
 pub use event::{Dependency, Event, TimedEvent};

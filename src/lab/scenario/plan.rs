@@ -71,6 +71,10 @@ pub struct ScenarioPlan {
     pub origin: ScenarioRef,
     /// The scenario, checked.
     pub scenario: Scenario,
+    /// The match whose pitch, ball and rules it has, by its file's name.
+    pub game: String,
+    /// Another pitch than that match's, by its file's name.
+    pub pitch: Option<String>,
     source: Source,
     /// The match, with the first seed.
     match_plan: MatchPlan,
@@ -133,9 +137,9 @@ impl ScenarioPlan {
         if origin.variant.is_some() && !file.variants.is_empty() {
             return Err(source.error_at(&Field::root().key("variants"), "a variant has none of its own"));
         }
-        let game = file.game.as_deref().unwrap_or(DEFAULT_MATCH);
-        let game = file_named(assets, source, AssetKind::Match, ("game", game))?;
-        let usual = MatchPlan::read_file(assets, &game, &Choice::default())?;
+        let game = file.game.clone().unwrap_or_else(|| DEFAULT_MATCH.into());
+        let path = file_named(assets, source, AssetKind::Match, ("game", &game))?;
+        let usual = MatchPlan::read_file(assets, &path, &Choice::default())?;
         let pitch = match &file.pitch {
             Some(name) => checked(assets, &file_named(assets, source, AssetKind::Pitch, ("pitch", name))?)?,
             None => usual.pitch.clone(),
@@ -174,11 +178,12 @@ impl ScenarioPlan {
             }
         }
         match_plan.script = script(assets, &scenario, &match_plan)?;
-        let plan = ScenarioPlan { origin, scenario, source: source.clone(), match_plan };
+        let (pitch, source) = (file.pitch.clone(), source.clone());
+        let plan = ScenarioPlan { origin, scenario, game, pitch, source, match_plan };
         match plan.scenario.depends_on {
             Some(dependency) if !plan.has(dependency) => {
                 let at = Field::root().key("depends_on");
-                Err(source.error_at(&at, format!("{dependency} is not on in the home team's strategy")))
+                Err(plan.source.error_at(&at, format!("{dependency} is not on in the home team's strategy")))
             }
             _ => Ok(plan),
         }

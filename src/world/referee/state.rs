@@ -218,6 +218,11 @@ impl MatchState {
         }
     }
 
+    /// Seconds of playing time since the match began.
+    pub fn time_played(&self, book: &RuleBook) -> f64 {
+        f64::from(self.half) * book.half_seconds() - self.time_left
+    }
+
     /// The goals of a team.
     pub fn score_of(&self, team: Team) -> u32 {
         self.score[team.index()]
@@ -263,6 +268,15 @@ mod tests {
     fn phases_are_ordered_as_a_match_passes_through_them() {
         let order = [Phase::Initial, Phase::Ready, Phase::Set, Phase::Playing, Phase::Finished];
         assert!(order.is_sorted());
+    }
+
+    #[test]
+    fn playing_time_goes_on_through_the_second_half() {
+        let book = RuleBook::default();
+        let mut state = MatchState::new(Team::Home, &book);
+        assert_eq!(state.time_played(&book), 0.0);
+        (state.half, state.time_left) = (2, 100.0);
+        assert_eq!(state.time_played(&book), 1100.0);
     }
 
     #[test]

@@ -9,11 +9,12 @@ use super::history::HistorySpan;
 use super::lanes::{NAMES, TEXT, show_lanes, show_spans};
 use super::layout::{Arrow, Axes, End, Labels};
 use super::locks::{attempt_story, lock_story};
-use super::words;
+use super::{message_row, words};
 use crate::app::view::colours;
 use crate::comms::messages::TeamMessage;
 use crate::comms::radio::Transmission;
 use crate::comms::tcm::Data;
+use crate::game::requests::Requests;
 use crate::ids::RobotId;
 use crate::robot::Health;
 
@@ -25,8 +26,15 @@ const NEAR: f32 = 5.0;
 const CROWDED: usize = 150;
 const MANY: usize = 700;
 
-pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Health)], heard: &RadioData, view: &mut RadioView) {
+pub fn show(
+    ui: &mut egui::Ui,
+    robots: &[(RobotId, Health)],
+    heard: &RadioData,
+    view: &mut RadioView,
+    requests: &mut Requests,
+) {
     show_filters(ui, view);
+    message_row::show(ui, heard, view, requests);
     let lanes: Vec<RobotId> = robots.iter().map(|(robot, _)| *robot).collect();
     let (axes, response) = show_lanes(ui, lanes.len(), heard, view);
     show_names(ui, response.rect, &axes, robots, view);
@@ -37,7 +45,11 @@ pub fn show(ui: &mut egui::Ui, robots: &[(RobotId, Health)], heard: &RadioData, 
         painter.hline(axes.rect.x_range(), axes.y(lane), (1.0, colour));
     }
     let told_of_lock = paint_locks(&painter, &axes, &lanes, heard, response.hover_pos());
-    let told = paint_messages(&painter, &axes, &lanes, heard, view, response.hover_pos());
+    let pointed = paint_messages(&painter, &axes, &lanes, heard, view, response.hover_pos());
+    if response.clicked() {
+        view.message = pointed.map(|message| message.id);
+    }
+    let told = pointed.map(|message| words::story(message, &heard.clock));
     if let Some(told) = told.or(told_of_lock) {
         response.on_hover_text_at_pointer(told);
     }
@@ -140,15 +152,15 @@ fn is_meant(bar: Rect, pointer: Option<Pos2>) -> bool {
     pointer.is_some_and(|pointer| bar.expand(2.0).contains(pointer))
 }
 
-/// What the message under the pointer tells.
-fn paint_messages(
+/// The message under the pointer.
+fn paint_messages<'a>(
     painter: &egui::Painter,
     axes: &Axes,
     lanes: &[RobotId],
-    heard: &RadioData,
+    heard: &'a RadioData,
     view: &RadioView,
     pointer: Option<Pos2>,
-) -> Option<String> {
+) -> Option<&'a Transmission> {
     let first = axes.start() - f64::from(LONGEST_WAY / heard.clock.dt);
     let recent = heard.radio.transmissions().rev().take_while(|message| message.sent as f64 >= first);
     let shown = recent.filter(|message| view.filter.passes(message));
@@ -165,9 +177,12 @@ fn paint_messages(
     if !many {
         paint_labels(painter, axes, &arrows);
     }
-    let (_, message, arrow) = pointed?;
-    painter.line_segment([arrow.from, arrow.to], (3.0, colours::egui(colours::PILOT)));
-    Some(words::story(message, &heard.clock))
+    let clicked = arrows.iter().find(|(message, _)| Some(message.id) == view.message);
+    let pointed = pointed.map(|(_, message, arrow)| (message, arrow));
+    for (_, arrow) in clicked.map(|(message, arrow)| (*message, arrow)).into_iter().chain(pointed) {
+        painter.line_segment([arrow.from, arrow.to], (3.0, colours::egui(colours::PILOT)));
+    }
+    pointed.map(|(message, _)| message)
 }
 
 fn colour(message: &Transmission, end: End) -> Color32 {

@@ -24,6 +24,8 @@ pub struct RadioView {
     pub page: RadioPage,
     /// The team that is looked at while no robot is selected: that of the last one.
     pub team: Option<Team>,
+    /// The message that was clicked, by the number of its transmission.
+    pub message: Option<u64>,
 }
 
 /// The time that the chart shows.

@@ -6,10 +6,12 @@ use crate::app::view::format;
 use crate::app::view::state::{AfterTick, MatchBegun};
 use crate::clock::Clock;
 use crate::ids::RobotId;
+use crate::lab::rewind::GoesBack;
 
 /// Keeps a history of one kind of thing.
 pub(super) fn plugin<T: HistoryValue>(app: &mut App) {
-    app.init_resource::<History<T>>().add_observer(forget_match::<T>).add_systems(AfterTick, forget_old::<T>);
+    app.init_resource::<History<T>>().goes_back::<History<T>>();
+    app.add_observer(forget_match::<T>).add_systems(AfterTick, forget_old::<T>);
 }
 
 /// What a robot may be in for a while.

@@ -22,7 +22,7 @@ pub fn show_lanes(
     view: &RadioView,
 ) -> (Axes, egui::Response) {
     let room = ui.available_size().max(vec2(200.0, lanes as f32 * LANE + TIMES));
-    let (whole, response) = ui.allocate_exact_size(room, egui::Sense::hover());
+    let (whole, response) = ui.allocate_exact_size(room, egui::Sense::CLICK);
     let rect = Rect::from_min_max(whole.min + vec2(NAMES, 0.0), whole.max - vec2(4.0, TIMES));
     let axes = Axes {
         rect,

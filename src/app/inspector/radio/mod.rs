@@ -10,6 +10,7 @@ mod history;
 mod lanes;
 mod layout;
 mod locks;
+mod message_row;
 mod robots;
 #[cfg(test)]
 mod samples;
@@ -61,7 +62,7 @@ fn dock(
         egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.set_min_width(WIDTH);
             match view.page {
-                RadioPage::Messages => chart::show(ui, &robots, &heard, view),
+                RadioPage::Messages => chart::show(ui, &robots, &heard, view, requests),
                 RadioPage::Bookings => bookings::show(ui, team, &robots, &heard, view),
                 RadioPage::Robots => robots::show(ui, &robots, &heard, requests),
             }

@@ -39,6 +39,7 @@ impl Keyboard {
             Press::Place(place) => self.name(place),
             Press::Shifted(place) => format!("Shift+{}", self.name(place)),
             Press::Sign(sign) => sign.to_owned(),
+            Press::Chord(place) => format!("Ctrl+{}", self.name(place)),
         }
     }
 
@@ -77,6 +78,9 @@ impl Keyboard {
 
 /// What a place is called on a US keyboard.
 fn us_name(place: KeyCode) -> String {
+    if place == KeyCode::Comma {
+        return ",".into();
+    }
     let name = format!("{place:?}");
     let short = ["Key", "Digit", "Arrow"].into_iter().find_map(|kind| name.strip_prefix(kind));
     short.map(str::to_owned).unwrap_or(name)

@@ -5,10 +5,10 @@ use bevy::input::keyboard::{Key, KeyboardInput};
 use bevy::prelude::*;
 
 use KeyCode::{
-    ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Escape, F1, F12, Home, KeyA, KeyC, KeyD, KeyE, KeyF, KeyH,
-    KeyI, KeyP, KeyQ, KeyR, KeyS, KeyW, KeyX, KeyZ, Space, Tab,
+    ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Comma, Escape, F1, F12, Home, KeyA, KeyB, KeyC, KeyD, KeyE,
+    KeyF, KeyH, KeyI, KeyP, KeyQ, KeyR, KeyS, KeyW, KeyX, KeyZ, Space, Tab,
 };
-use Press::{Place, Shifted, Sign};
+use Press::{Chord, Place, Shifted, Sign};
 
 use crate::app::view::state::{Action, Overlay, Press};
 
@@ -66,7 +66,7 @@ const fn act(action: Action, presses: &'static [Press], does: &'static str) -> B
 }
 
 /// The keys before those of the overlays.
-const FIRST: [Binding; 19] = [
+const FIRST: [Binding; 22] = [
     drive(DriveKey::Ahead, &[Place(KeyW), Place(ArrowUp)], "Drive ahead"),
     drive(DriveKey::Back, &[Place(KeyS), Place(ArrowDown)], "Drive back"),
     drive(DriveKey::TurnLeft, &[Place(KeyA), Place(ArrowLeft)], "Turn left"),
@@ -79,6 +79,9 @@ const FIRST: [Binding; 19] = [
     drive(DriveKey::Hold, &[Place(KeyC)], "Hold the ball under the chin, while it is held"),
     act(Action::PlayOrPause, &[Place(Space), Place(KeyP)], "Pause, or play on"),
     act(Action::OneTick, &[Sign(".")], "One tick"),
+    act(Action::TickBack, &[Place(Comma)], "One tick back"),
+    act(Action::Bookmark, &[Place(KeyB)], "A bookmark here, or none any more"),
+    act(Action::Undo, &[Chord(KeyZ)], "Take back what you did last, and go back to before it"),
     act(Action::Faster, &[Sign("+"), Sign("=")], "Faster"),
     act(Action::Slower, &[Sign("-")], "Slower"),
     act(Action::Restart, &[Place(KeyR)], "Restart the match"),
@@ -89,7 +92,12 @@ const FIRST: [Binding; 19] = [
 ];
 
 /// The keys after them.
-const LAST: [Binding; 5] = [
+const LAST: [Binding; 6] = [
+    act(
+        Action::SaveScenario,
+        &[],
+        "Write this moment as a scenario, which `touchline check` reads and plays",
+    ),
     act(Action::Inspector, &[Place(KeyI)], "The inspector: the inside of the selected robot"),
     act(Action::World, &[Place(F12)], "The whole world, entity by entity"),
     act(Action::Help, &[Place(F1), Sign("?")], "These keys"),
@@ -98,8 +106,12 @@ const LAST: [Binding; 5] = [
 ];
 
 /// What the mouse does.
-pub const MOUSE: [(&str, &str); 3] =
-    [("Click", "Select a robot"), ("Drag", "Move the pitch"), ("Wheel", "Zoom at the pointer")];
+pub const MOUSE: [(&str, &str); 4] = [
+    ("Click", "Select a robot"),
+    ("Drag", "Move the pitch"),
+    ("Shift+Drag", "Carry a robot or the ball elsewhere"),
+    ("Wheel", "Zoom at the pointer"),
+];
 
 /// All keys, in the order of the help page.
 pub fn bindings() -> impl Iterator<Item = Binding> {
@@ -140,7 +152,7 @@ impl Action {
 
     /// Whether holding the key goes on doing it.
     pub fn repeats(self) -> bool {
-        matches!(self, Action::OneTick | Action::Faster | Action::Slower)
+        matches!(self, Action::OneTick | Action::TickBack | Action::Faster | Action::Slower)
     }
 }
 

@@ -48,7 +48,7 @@ impl Pointer {
     }
 }
 
-fn follow_pointer(
+pub(super) fn follow_pointer(
     mut contexts: EguiContexts,
     area: Res<FreeArea>,
     buttons: Res<ButtonInput<MouseButton>>,

@@ -6,20 +6,23 @@ use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 use egui::containers::menu::{MenuButton, MenuConfig};
 
+use super::past_menu::show_past_menu;
 use super::time_line::show_time_line;
+use super::time_scale::{PlayedSoFar, TimeScale};
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::format;
 use crate::app::view::input::driving::DrivenRobot;
 use crate::app::view::input::keyboard::Keyboard;
 use crate::app::view::input::keys::{Deed, DriveKey};
 use crate::app::view::state::{
-    Action, Edge, FreeArea, Overlay, Overlays, PanelSystems, Piloted, Playback, Screen, Selected,
-    TimelineEvents,
+    Action, Beside, Edge, FreeArea, Overlay, Overlays, PanelSystems, Piloted, Playback, Screen, Selected,
 };
 use crate::app::view::style::panel_frame;
-use crate::app::view::time::announcements::played;
+use crate::app::view::time::expectations::Expectations;
+use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::world::referee::{MatchState, RuleBook};
+use crate::lab::rewind::{MatchEventKind, Rewind};
+use crate::world::referee::{Decision, RuleBook};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_systems(
@@ -131,11 +134,54 @@ impl Controls<'_> {
     }
 }
 
+/// The past and the length of the match.
+#[derive(SystemParam)]
+struct MatchTime<'w> {
+    rewind: ResMut<'w, Rewind>,
+    beside: ResMut<'w, Beside>,
+    clock: Res<'w, Clock>,
+    book: Res<'w, RuleBook>,
+    expectations: Res<'w, Expectations>,
+}
+
+impl MatchTime<'_> {
+    fn scale(&self) -> TimeScale {
+        let rewind = &self.rewind;
+        let (present, dt) = (rewind.present(), self.clock.dt);
+        let is_half_time =
+            |what: &MatchEventKind| matches!(what, MatchEventKind::Call(Decision::HalfEnded { half: 1 }));
+        let played = PlayedSoFar {
+            ticks: rewind.end(),
+            seconds: rewind.ghost(present, rewind.end()).map_or(0.0, |ghost| f64::from(ghost.played)),
+            half_time: rewind.events(present).find(|event| is_half_time(&event.what)).map(|event| event.tick),
+        };
+        match self.expectations.end() {
+            Some(end) => TimeScale::of_scenario(played, end, dt),
+            None => TimeScale::of_match(rewind.start(), played, self.book.half_seconds(), dt),
+        }
+    }
+
+    /// The row with the line of the match.
+    fn show(&mut self, ui: &mut egui::Ui, controls: &mut Controls) {
+        let scale = self.scale();
+        ui.horizontal(|ui| {
+            for action in
+                show_past_menu(ui, &mut self.rewind, &mut self.beside, &self.clock, &controls.keyboard)
+            {
+                controls.actions.write(action);
+            }
+            if let Some(tick) = show_time_line(ui, &self.rewind, self.beside.0, self.clock.tick, &scale) {
+                controls.actions.write(Action::GoTo(tick));
+            }
+        });
+    }
+}
+
 fn show_bottom_bar(
     mut contexts: EguiContexts,
     mut area: ResMut<FreeArea>,
     mut controls: Controls,
-    (state, book, events): (Res<MatchState>, Res<RuleBook>, Res<TimelineEvents>),
+    mut time: MatchTime,
 ) -> Result {
     let panel = egui::Panel::bottom("bottom bar").resizable(false).frame(panel_frame(colours::PANEL, MARGIN));
     let room = (area.0.height() - MARGIN.sum().y).max(1.0);
@@ -148,7 +194,7 @@ fn show_bottom_bar(
             } else {
                 controls.show_folded(ui)
             }
-            show_time_line(ui, &events.0, played(&state, &book), &book);
+            time.show(ui, &mut controls);
         });
     });
     Ok(())

@@ -7,8 +7,8 @@ use super::dock::show_in_the_middle;
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::input::keyboard::Keyboard;
 use crate::app::view::state::{
-    Action, FrameSystems, MatchBegun, OpenDialogues, PanelSystems, PendingMatch, Piloted, Question, Screen,
-    Selected, Session,
+    Action, FrameSystems, MatchBegun, OpenDialogues, PanelSystems, PendingMatch, Piloted, Question, Rewound,
+    Screen, Selected, Session,
 };
 use crate::clock::Clock;
 use crate::ids::Team;
@@ -17,6 +17,7 @@ use crate::world::referee::{MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_observer(close_all)
+        .add_observer(close_result)
         .add_systems(Update, (open_and_close, show_result_at_the_end).in_set(FrameSystems::Input))
         .add_systems(
             EguiPrimaryContextPass,
@@ -36,6 +37,11 @@ impl Question {
 
 fn close_all(_: On<MatchBegun>, mut open: ResMut<OpenDialogues>) {
     *open = OpenDialogues::default();
+}
+
+/// A match that goes back is not over.
+fn close_result(_: On<Rewound>, mut open: ResMut<OpenDialogues>) {
+    open.result = false;
 }
 
 fn open_and_close(

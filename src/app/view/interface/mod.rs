@@ -8,10 +8,13 @@ pub mod dock;
 mod help;
 mod menu;
 mod menu_art;
+mod past_menu;
+pub mod saving;
 mod scenario_box;
 mod scenario_list;
 pub mod settings;
 mod time_line;
+mod time_scale;
 mod top_bar;
 mod waiting;
 pub mod window_size;
@@ -19,6 +22,14 @@ pub mod window_size;
 use bevy::prelude::*;
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_plugins((top_bar::plugin, bottom_bar::plugin, dialogues::plugin, help::plugin, menu::plugin))
-        .add_plugins((scenario_box::plugin, waiting::plugin, settings::plugin, window_size::plugin));
+    app.add_plugins((
+        top_bar::plugin,
+        bottom_bar::plugin,
+        past_menu::plugin,
+        saving::plugin,
+        dialogues::plugin,
+        help::plugin,
+        menu::plugin,
+    ))
+    .add_plugins((scenario_box::plugin, waiting::plugin, settings::plugin, window_size::plugin));
 }

@@ -10,11 +10,13 @@ use crate::app::view::colours;
 use crate::app::view::state::{AfterTick, FrameSystems, MatchBegun};
 use crate::clock::Clock;
 use crate::geometry::Pose;
+use crate::lab::rewind::GoesBack;
 use crate::pitch::BallKind;
 use crate::world::ball::Ball;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Past>()
+        .goes_back::<Past>()
         .add_observer(draw_ball)
         .add_systems(AfterTick, remember_way)
         .add_systems(Update, place_trail.in_set(FrameSystems::Picture));

@@ -3,6 +3,7 @@
 
 mod ball;
 pub mod camera;
+pub mod ghosts;
 pub mod label_placement;
 pub mod labels;
 mod pitch;
@@ -22,6 +23,7 @@ pub(super) fn plugin(app: &mut App) {
         robots::plugin,
         walkers::plugin,
         ball::plugin,
+        ghosts::plugin,
         rings::plugin,
     ));
 }

@@ -5,12 +5,13 @@
 
 use bevy::prelude::*;
 
-use crate::app::view::state::{AfterTick, FrameSystems, Playback};
+use crate::app::view::state::{AfterTick, FrameSystems, Playback, Rewound};
 use crate::geometry::{Pose, wrap_angle};
 use crate::ids::RobotId;
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(AfterTick, remember_poses)
+    app.add_observer(jump)
+        .add_systems(AfterTick, remember_poses)
         .add_systems(Update, (place_shown, fade_in).chain().in_set(FrameSystems::Picture));
 }
 
@@ -77,6 +78,11 @@ impl BodyVisual {
         self.before = if carried { pose } else { self.after };
         self.after = pose;
     }
+
+    /// It is here now, and comes from nowhere.
+    fn jump(&mut self, pose: Pose) {
+        (self.before, self.after, self.carried) = (pose, pose, false);
+    }
 }
 
 impl Fade {
@@ -106,6 +112,15 @@ fn remember_poses(bodies: Query<&Pose>, mut shown: Query<&mut BodyVisual>) {
     for mut shown in &mut shown {
         if let Ok(pose) = bodies.get(shown.body) {
             shown.follow(*pose);
+        }
+    }
+}
+
+/// A match that goes back does not carry its bodies there.
+fn jump(_: On<Rewound>, bodies: Query<&Pose>, mut shown: Query<&mut BodyVisual>) {
+    for mut shown in &mut shown {
+        if let Ok(pose) = bodies.get(shown.body) {
+            shown.jump(*pose);
         }
     }
 }

@@ -6,14 +6,15 @@ use bevy::prelude::*;
 use super::shapes::{Paint, Parent, fill, paint, part, polygon, rounded_box_at, soft_disc};
 use super::visuals::{BodyVisual, Drawn, height};
 use crate::app::view::colours;
-use crate::app::view::state::{AfterTick, FrameSystems, Playback};
+use crate::app::view::state::{AfterTick, FrameSystems, Playback, Rewound};
 use crate::clock::Clock;
 use crate::geometry::{unit, wrap_angle};
 use crate::robot::handling::{Handling, Kicking};
 use crate::robot::{Head, RobotKind};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_systems(AfterTick, remember_heads)
+    app.add_observer(jump)
+        .add_systems(AfterTick, remember_heads)
         .add_systems(Update, (turn_gaze, move_limbs).chain().in_set(FrameSystems::Picture));
 }
 
@@ -117,6 +118,15 @@ fn remember_heads(heads: Query<&Head>, mut drawn: Query<(&BodyVisual, &mut HeadV
     for (shown, mut gaze) in &mut drawn {
         if let Ok(head) = heads.get(shown.body) {
             gaze.follow(head.pan);
+        }
+    }
+}
+
+/// A match that goes back turns no heads on its way.
+fn jump(_: On<Rewound>, heads: Query<&Head>, mut drawn: Query<(&BodyVisual, &mut HeadVisual)>) {
+    for (shown, mut gaze) in &mut drawn {
+        if let Ok(head) = heads.get(shown.body) {
+            (gaze.before, gaze.after) = (head.pan, head.pan);
         }
     }
 }

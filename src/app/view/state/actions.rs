@@ -3,6 +3,7 @@
 use bevy::prelude::*;
 
 use super::overlays::Overlay;
+use crate::lab::rewind::BranchId;
 
 /// What a person asks of the window.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +12,18 @@ pub enum Action {
     PlayOrPause,
     /// Play one tick.
     OneTick,
+    /// Go one tick back.
+    TickBack,
+    /// Go to where so many ticks are over.
+    GoTo(u64),
+    /// Play on in another branch.
+    TakeBranch(BranchId),
+    /// Take back what a person did last.
+    Undo,
+    /// Write the present moment as a scenario.
+    SaveScenario,
+    /// Keep a bookmark here.
+    Bookmark,
     /// Play faster.
     Faster,
     /// Play slower.

@@ -17,23 +17,24 @@ use crate::ids::RobotId;
 
 pub use actions::Action;
 pub use layout::{Edge, FreeArea, PITCH, PanelSystems, nearest_within};
-pub use news::{Announcement, FileError, TimelineEvent, TimelineEvents};
+pub use news::{Announcement, FileError};
 pub use overlays::{Overlay, Overlays, Press, shows};
 pub use panels::{Inspector, OpenDialogues, OpenPanels, PanelSizes, Question, RememberedPanels};
 pub use playback::Playback;
-pub use session::{Folder, MatchBegun, PendingMatch, Session};
+pub use session::{Beside, Folder, MatchBegun, PendingMatch, Rewound, Session};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_state::<Screen>()
         .init_resource::<Selected>()
         .init_resource::<Piloted>()
+        .init_resource::<Carried>()
         .init_resource::<Overlays>()
         .init_resource::<Playback>()
         .init_resource::<OpenDialogues>()
         .init_resource::<Announcement>()
         .init_resource::<FileError>()
-        .init_resource::<TimelineEvents>()
         .init_resource::<PendingMatch>()
+        .init_resource::<Beside>()
         .init_resource::<Session>()
         .init_schedule(AfterTick)
         .edit_schedule(AfterTick, |schedule| {
@@ -78,6 +79,19 @@ impl Piloted {
             requests.ask(Request::TakeOver(robot));
         }
     }
+}
+
+/// What a person carries over the pitch, and where it would be put down, in the pitch frame.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Carried(pub Option<(InHand, Vec2)>);
+
+/// What can be carried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InHand {
+    /// The ball.
+    Ball,
+    /// A robot.
+    Robot(RobotId),
 }
 
 /// What the window shows.

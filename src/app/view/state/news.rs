@@ -1,8 +1,6 @@
-//! What has just happened, in words: the last announcement, the events on the time line, and what is wrong with a file.
+//! What has just happened, in words: the last announcement, and what is wrong with a file.
 
 use bevy::prelude::*;
-
-use crate::world::referee::Decision;
 
 /// The sentence at the top, while it is news.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -46,19 +44,6 @@ const NEWS: u8 = 2;
 /// What went wrong with a file, in one line.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileError(pub Option<String>);
-
-/// What there is to see on the time line, oldest first.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct TimelineEvents(pub Vec<TimelineEvent>);
-
-/// A decision and when it fell.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimelineEvent {
-    /// What the referee decided.
-    pub decision: Decision,
-    /// Seconds of playing time since the match began.
-    pub played: f64,
-}
 
 #[cfg(test)]
 mod tests {

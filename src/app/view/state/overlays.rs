@@ -12,6 +12,8 @@ pub enum Press {
     Shifted(KeyCode),
     /// A sign, wherever the layout has it.
     Sign(&'static str),
+    /// A place together with Ctrl, which panels may want for themselves.
+    Chord(KeyCode),
 }
 
 macro_rules! overlays {

@@ -7,6 +7,7 @@ use crate::data::AssetFolder;
 use crate::game::MatchPlan;
 use crate::ids::Team;
 use crate::lab::replay::ReplayHeader;
+use crate::lab::rewind::BranchId;
 use crate::lab::scenario::ScenarioPlan;
 
 /// Where the files are.
@@ -37,6 +38,15 @@ impl Session {
     }
 }
 
+/// Another branch of the match that is shown beside the one that is played.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Beside(pub Option<BranchId>);
+
 /// A match has been put into the world, from its beginning.
 #[derive(Event, Clone, Copy, Debug)]
 pub struct MatchBegun;
+
+/// The match in the world has gone to another tick, or to another branch. What looks after each tick has seen the way there;
+/// what lies between two ticks has to start anew.
+#[derive(Event, Clone, Copy, Debug)]
+pub struct Rewound;

@@ -1,15 +1,14 @@
-//! What the referee decides becomes an announcement for three seconds, and an event on the time line if it matters.
+//! What the referee decides becomes an announcement for three seconds.
 
 use bevy::prelude::*;
 
-use crate::app::view::state::{
-    AfterTick, Announcement, FrameSystems, MatchBegun, TimelineEvent, TimelineEvents,
-};
+use crate::app::view::state::{AfterTick, Announcement, FrameSystems, MatchBegun, Rewound};
 use crate::clock::Clock;
-use crate::world::referee::{Decision, MatchState, PlacementReason, RuleBook, Whistles};
+use crate::world::referee::{Decision, PlacementReason, Whistles};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_observer(forget)
+    app.add_observer(|_: On<MatchBegun>, announcement: ResMut<Announcement>| forget(announcement))
+        .add_observer(|_: On<Rewound>, announcement: ResMut<Announcement>| forget(announcement))
         .add_systems(AfterTick, note_decisions)
         .add_systems(Update, let_announcement_pass.in_set(FrameSystems::Picture));
 }
@@ -36,33 +35,15 @@ fn weight(decision: &Decision) -> u8 {
     }
 }
 
-/// Whether a decision has a place on the time line.
-fn is_event(decision: &Decision) -> bool {
-    weight(decision) >= 2
-}
-
-/// Seconds of playing time since the match began.
-pub fn played(state: &MatchState, book: &RuleBook) -> f64 {
-    f64::from(state.half) * book.half_seconds() - state.time_left
-}
-
-fn forget(_: On<MatchBegun>, mut announcement: ResMut<Announcement>, mut events: ResMut<TimelineEvents>) {
+fn forget(mut announcement: ResMut<Announcement>) {
     *announcement = Announcement::default();
-    events.0.clear();
 }
 
-fn note_decisions(
-    (clock, whistles, state, book): (Res<Clock>, Res<Whistles>, Res<MatchState>, Res<RuleBook>),
-    mut announcement: ResMut<Announcement>,
-    mut events: ResMut<TimelineEvents>,
-) {
+fn note_decisions(clock: Res<Clock>, whistles: Res<Whistles>, mut announcement: ResMut<Announcement>) {
     let last_tick = clock.tick.saturating_sub(1);
     let fresh = whistles.heard.iter().rev().take_while(|(tick, _)| *tick == last_tick).count();
     for (_, decision) in whistles.heard.iter().skip(whistles.heard.len() - fresh) {
         announcement.say(decision.to_string(), weight(decision));
-        if is_event(decision) {
-            events.0.push(TimelineEvent { decision: *decision, played: played(&state, &book) });
-        }
     }
 }
 
@@ -87,14 +68,5 @@ mod tests {
             announcement.say(decision.to_string(), weight(&decision));
         }
         assert_eq!(announcement.text(), Some("Goal for home, 1:0"));
-    }
-
-    #[test]
-    fn playing_time_goes_on_through_the_second_half() {
-        let book = RuleBook::default();
-        let mut state = MatchState::new(Team::Home, &book);
-        assert_eq!(played(&state, &book), 0.0);
-        (state.half, state.time_left) = (2, 100.0);
-        assert_eq!(played(&state, &book), 1100.0);
     }
 }

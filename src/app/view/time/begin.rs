@@ -12,6 +12,7 @@ use crate::clock::Clock;
 use crate::data::DataError;
 use crate::game::{net, start_match};
 use crate::lab::replay::{Plans, ReplayHeader};
+use crate::lab::rewind::Rewind;
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Expectations>()
@@ -65,4 +66,6 @@ fn begin(world: &mut World, request: MatchRequest, (header, (plan, scenario)): (
     clear(world);
     world.trigger(MatchBegun);
     world.flush();
+    let rewind = Rewind::begin(world);
+    world.insert_resource(rewind);
 }

@@ -4,9 +4,11 @@ use bevy::prelude::*;
 
 use crate::app::view::state::{AfterTick, Announcement, Playback};
 use crate::clock::Clock;
+use crate::lab::rewind::GoesBack;
 use crate::lab::scenario::{Judge, Scenario, observe};
 
 pub(super) fn plugin(app: &mut App) {
+    app.goes_back::<Expectations>();
     app.add_systems(AfterTick, look).add_systems(Last, tell_whoever_started_us);
 }
 
@@ -39,6 +41,11 @@ impl Expectations {
             judge: scenario.map(|scenario| Judge::new(scenario, scenario.first_place(), dt)),
             end: scenario.map_or(0, |scenario| scenario.ticks(dt)),
         }
+    }
+
+    /// The tick after which the scenario is over; none in a match.
+    pub fn end(&self) -> Option<u64> {
+        self.judge.as_ref().map(|_| self.end)
     }
 
     /// Each expectation in words, in the order of the file.

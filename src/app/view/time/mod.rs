@@ -3,10 +3,12 @@
 
 pub mod announcements;
 mod begin;
+mod beside;
 pub mod expectations;
 pub mod recording;
 mod reload;
 pub mod remote_robots;
+mod rewinding;
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +18,7 @@ use remote_robots::is_waiting;
 use super::state::{AfterTick, FileError, FrameSystems, OpenDialogues, Playback};
 use crate::clock::Clock;
 use crate::game::net;
-use crate::schedule::Tick;
+use crate::lab::rewind::Rewind;
 use crate::world::gamecontroller::BoxNews;
 use crate::world::referee::{MatchState, Phase};
 
@@ -28,8 +30,10 @@ pub(super) fn plugin(app: &mut App) {
         expectations::plugin,
         announcements::plugin,
         remote_robots::plugin,
+        beside::plugin,
+        rewinding::plugin,
     ))
-    .add_systems(Update, (pass_time, announce).chain().in_set(FrameSystems::Time));
+    .add_systems(Update, (rewinding::go, pass_time, announce).chain().in_set(FrameSystems::Time));
 }
 
 /// The time in one frame after which no further tick is begun: at 64 times on a slow machine the window stays responsive.
@@ -51,13 +55,15 @@ fn pass_time(world: &mut World) {
     let due = playback.take_ticks(elapsed, dt);
     net::grant(world, ROBOTS_BUDGET);
     let began = Instant::now();
-    for _ in 0..due {
-        world.run_schedule(Tick);
-        world.run_schedule(AfterTick);
-        if began.elapsed() > FRAME_BUDGET || is_over(world) {
-            break;
+    world.resource_scope(|world, mut rewind: Mut<Rewind>| {
+        for _ in 0..due {
+            rewind.play(world, |world| world.run_schedule(AfterTick));
+            recording::follow(world, &rewind);
+            if began.elapsed() > FRAME_BUDGET || is_over(world) {
+                break;
+            }
         }
-    }
+    });
 }
 
 /// The match is announced while it stands still, too.

@@ -1,6 +1,7 @@
-//! What is played in the window is recorded, if that was wanted: the first match in the file that was named, each later one in a
-//! file of its own beside it.
+//! What is played in the window is recorded, if that was wanted: the first match in the file that was named, each later one and
+//! each branch in a file of its own beside it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
@@ -8,6 +9,7 @@ use bevy::prelude::*;
 use crate::app::view::state::{AfterTick, FileError, MatchBegun, Session};
 use crate::game::requests::RequestLog;
 use crate::lab::replay::Recorder;
+use crate::lab::rewind::{BranchId, Rewind};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Recording>()
@@ -21,9 +23,11 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(Resource, Debug, Default)]
 pub struct Recording {
     wanted: Option<PathBuf>,
-    /// How many matches were recorded.
+    /// How many files were begun.
     count: usize,
-    recorder: Option<Recorder>,
+    /// One for each branch of the match.
+    recorders: BTreeMap<BranchId, Recorder>,
+    present: BranchId,
 }
 
 impl Recording {
@@ -33,9 +37,32 @@ impl Recording {
     }
 
     fn close(&mut self) -> Option<String> {
-        let recorder = self.recorder.take()?;
-        let path = recorder.path().to_owned();
-        recorder.finish().err().map(|error| cannot_write(&path, &error))
+        self.present = BranchId::default();
+        let finish = |recorder: Recorder| {
+            let path = recorder.path().to_owned();
+            recorder.finish().err().map(|error| cannot_write(&path, &error))
+        };
+        let errors: Vec<String> =
+            std::mem::take(&mut self.recorders).into_values().filter_map(finish).collect();
+        errors.into_iter().next()
+    }
+
+    /// The file of a branch begins with what it shares with the one that was recorded before.
+    fn branch(&mut self, branch: BranchId, from: u64) -> Option<String> {
+        let left = std::mem::replace(&mut self.present, branch);
+        let (Some(wanted), Some(recorder)) = (&self.wanted, self.recorders.get(&left)) else { return None };
+        if self.recorders.contains_key(&branch) {
+            return None;
+        }
+        self.count += 1;
+        let path = numbered(wanted, self.count);
+        match recorder.branch(from, &path) {
+            Ok(recorder) => {
+                self.recorders.insert(branch, recorder);
+                None
+            }
+            Err(error) => Some(cannot_write(&path, &error)),
+        }
     }
 }
 
@@ -49,7 +76,7 @@ fn begin(
     let (Some(wanted), Some(header)) = (&recording.wanted, &session.header) else { return };
     let path = numbered(wanted, recording.count + 1);
     let created = Recorder::create(&path, header.clone());
-    let error = created.map(|recorder| recording.recorder = Some(recorder)).err();
+    let error = created.map(|recorder| recording.recorders.insert(BranchId::default(), recorder)).err();
     recording.count += 1;
     if let Some(error) = closed.or(error.map(|error| cannot_write(&path, &error))) {
         file_error.0 = Some(error);
@@ -68,13 +95,27 @@ fn numbered(path: &Path, number: usize) -> PathBuf {
 
 fn note(world: &mut World) {
     world.resource_scope(|world, mut recording: Mut<Recording>| {
-        let Some(recorder) = &mut recording.recorder else { return };
+        let present = recording.present;
+        let Some(recorder) = recording.recorders.get_mut(&present) else { return };
         if let Err(error) = recorder.note(world) {
             let message = cannot_write(recorder.path(), &error);
             world.resource_mut::<FileError>().0 = Some(format!("{message}. It is not recorded any more"));
-            recording.recorder = None;
+            recording.recorders.remove(&present);
         }
     });
+}
+
+/// From now on the present branch is recorded. The tick in which it began has just been played, if any has.
+pub(super) fn follow(world: &mut World, rewind: &Rewind) {
+    let present = rewind.present();
+    let mut recording = world.resource_mut::<Recording>();
+    if recording.present == present {
+        return;
+    }
+    if let Some(error) = recording.branch(present, rewind.branch(present).from) {
+        world.resource_mut::<FileError>().0 = Some(error);
+    }
+    note(world);
 }
 
 /// The last seconds are recorded when the window closes.

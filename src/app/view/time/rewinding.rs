@@ -1,0 +1,116 @@
+//! Going back and forth in the match, to other branches of it, and what a person holds in hand then.
+
+use bevy::prelude::*;
+
+use super::recording;
+use crate::app::view::state::{
+    Action, AfterTick, Announcement, FileError, FrameSystems, Piloted, Playback, Rewound,
+};
+use crate::clock::Clock;
+use crate::ids::RobotId;
+use crate::lab::rewind::{BranchId, CannotRewind, Rewind};
+use crate::robot::pilot::Pilot;
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_resource::<Wanted>()
+        .add_message::<Action>()
+        .add_observer(let_go)
+        .add_systems(Update, (want, keep_bookmark).in_set(FrameSystems::Input))
+        .add_systems(Update, take_seat_again.in_set(FrameSystems::Time).after(super::pass_time));
+}
+
+/// Where a person wants the match to go.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+struct Wanted(Option<Way>);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    To(u64),
+    ToBranch(BranchId),
+    BeforeLast,
+}
+
+fn want(mut actions: MessageReader<Action>, clock: Res<Clock>, mut wanted: ResMut<Wanted>) {
+    for action in actions.read() {
+        // Back from where it is about to be.
+        let tick = match wanted.0 {
+            Some(Way::To(tick)) => tick,
+            _ => clock.tick,
+        };
+        wanted.0 = Some(match *action {
+            Action::TickBack => Way::To(tick.saturating_sub(1)),
+            Action::GoTo(tick) => Way::To(tick),
+            Action::TakeBranch(branch) => Way::ToBranch(branch),
+            Action::Undo => Way::BeforeLast,
+            _ => continue,
+        });
+    }
+}
+
+/// A bookmark with the time as its note, or away with the one that is here.
+fn keep_bookmark(mut actions: MessageReader<Action>, clock: Res<Clock>, rewind: Option<ResMut<Rewind>>) {
+    let Some(mut rewind) = rewind else { return };
+    for _ in actions.read().filter(|action| **action == Action::Bookmark) {
+        let is_there = rewind.bookmarks(rewind.present()).any(|(tick, _)| tick == clock.tick);
+        let note = if is_there { String::new() } else { "A bookmark".into() };
+        rewind.set_bookmark(clock.tick, note);
+    }
+}
+
+/// Goes where a person wants the match to go. Time stands still there.
+pub(super) fn go(world: &mut World) {
+    let Some(way) = world.resource_mut::<Wanted>().bypass_change_detection().0.take() else { return };
+    let gone = world.resource_scope(|world, mut rewind: Mut<Rewind>| {
+        let gone = follow(world, &mut rewind, way);
+        recording::follow(world, &rewind);
+        gone
+    });
+    match gone {
+        Err(error) => world.resource_mut::<FileError>().0 = Some(error.to_string()),
+        Ok(told) => {
+            let mut playback = world.resource_mut::<Playback>();
+            *playback = Playback { paused: true, speed: playback.speed, ..Playback::default() };
+            world.trigger(Rewound);
+            world.flush();
+            if let Some(told) = told {
+                world.resource_mut::<Announcement>().tell(told);
+            }
+        }
+    }
+}
+
+/// What there is to tell of it.
+fn follow(world: &mut World, rewind: &mut Rewind, way: Way) -> Result<Option<String>, CannotRewind> {
+    let look = &mut |world: &mut World| world.run_schedule(AfterTick);
+    match way {
+        Way::To(tick) => rewind.seek(world, tick, look).map(|()| None),
+        Way::ToBranch(branch) => {
+            let tick = world.resource::<Clock>().tick;
+            rewind.switch(world, branch, tick, look)?;
+            Ok(Some(format!("The branch with {}", rewind.branch(branch).name)))
+        }
+        Way::BeforeLast => {
+            let undone = rewind.undo(world, look)?;
+            let told = undone.map(|what| format!("Undone: {what}"));
+            Ok(Some(told.unwrap_or_else(|| "There is nothing to undo".into())))
+        }
+    }
+}
+
+/// Who goes back takes the hands off: the robot is driven as it was.
+fn let_go(_: On<Rewound>, mut piloted: ResMut<Piloted>) {
+    piloted.set_if_neq(Piloted(None));
+}
+
+/// Where nothing more is known of what a person did, the robot that is driven is in hand again.
+fn take_seat_again(
+    (rewind, clock): (Option<Res<Rewind>>, Res<Clock>),
+    mut piloted: ResMut<Piloted>,
+    pilots: Query<&RobotId, With<Pilot>>,
+    mut was_driven: Local<bool>,
+) {
+    let is_driven = rewind.is_some_and(|rewind| rewind.drives_itself(clock.tick));
+    if std::mem::replace(&mut *was_driven, is_driven) && !is_driven {
+        piloted.set_if_neq(Piloted(pilots.iter().min().copied()));
+    }
+}

@@ -1,0 +1,80 @@
+//! Where robots and ball were in each tick of a branch, and how the match stood: enough to show it without playing it.
+
+use bevy::prelude::*;
+
+use crate::geometry::Pose;
+use crate::ids::RobotId;
+use crate::world::ball::Ball;
+use crate::world::referee::{MatchState, RuleBook};
+
+/// A branch as it went, moment by moment, one for each tick that is over.
+#[derive(Clone, Debug, Default)]
+pub struct Track {
+    /// The ticks that were over at the first moment.
+    from: u64,
+    robots: Vec<RobotId>,
+    /// Of each moment the robots' in their order, and the ball's.
+    poses: Vec<Pose>,
+    standings: Vec<Standings>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Standings {
+    score: [u16; 2],
+    played: f32,
+}
+
+/// A moment of a [`Track`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ghost<'a> {
+    /// The robots, sorted.
+    pub robots: &'a [RobotId],
+    /// Their poses, in the pitch frame.
+    pub poses: &'a [Pose],
+    /// m in the pitch frame.
+    pub ball: Vec2,
+    /// Goals of home and away.
+    pub score: [u16; 2],
+    /// Seconds of playing time since the match began.
+    pub played: f32,
+}
+
+impl Track {
+    pub(super) fn starting(from: u64) -> Track {
+        Track { from, ..Track::default() }
+    }
+
+    /// Adds the present moment.
+    pub(super) fn push(&mut self, world: &mut World) {
+        let mut bodies = world.query::<(&Pose, Option<&RobotId>, Has<Ball>)>();
+        let mut poses: Vec<(Option<RobotId>, Pose)> = (bodies.iter(world))
+            .filter(|(_, robot, is_ball)| robot.is_some() || *is_ball)
+            .map(|(pose, robot, _)| (robot.copied(), *pose))
+            .collect();
+        // The ball comes last.
+        poses.sort_unstable_by_key(|(robot, _)| (robot.is_none(), *robot));
+        if self.standings.is_empty() {
+            self.robots = poses.iter().filter_map(|(robot, _)| *robot).collect();
+        }
+        self.poses.extend(poses.into_iter().map(|(_, pose)| pose));
+        let (state, book) = (world.resource::<MatchState>(), world.resource::<RuleBook>());
+        self.standings.push(Standings {
+            score: state.score.map(|goals| u16::try_from(goals).unwrap_or(u16::MAX)),
+            played: state.time_played(book) as f32,
+        });
+    }
+
+    /// The moment at which so many ticks of the match were over, if it is of this branch.
+    pub fn at(&self, tick: u64) -> Option<Ghost<'_>> {
+        let place = usize::try_from(tick.checked_sub(self.from)?).ok()?;
+        let Standings { score, played } = *self.standings.get(place)?;
+        let width = self.robots.len() + 1;
+        let (ball, poses) = self.poses.get(place * width..(place + 1) * width)?.split_last()?;
+        Some(Ghost { robots: &self.robots, poses, ball: ball.position, score, played })
+    }
+
+    /// Bytes that a moment takes.
+    pub fn bytes_a_moment(&self) -> usize {
+        (self.robots.len() + 1) * size_of::<Pose>() + size_of::<Standings>()
+    }
+}
