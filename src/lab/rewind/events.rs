@@ -78,7 +78,7 @@ fn matters(decision: &Decision) -> bool {
 
 /// How the robots were after a tick, to see what the next one changes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Watch(Vec<WatchedRobot>);
+pub(super) struct EventWatch(Vec<WatchedRobot>);
 
 #[derive(Clone, Debug)]
 struct WatchedRobot {
@@ -133,18 +133,18 @@ impl WatchedRobot {
     }
 }
 
-impl Watch {
+impl EventWatch {
     /// How the robots are now.
-    pub(super) fn of(world: &mut World) -> Watch {
+    pub(super) fn of(world: &mut World) -> EventWatch {
         let mut parts = world.query::<WatchedParts>();
         let mut robots: Vec<WatchedRobot> = parts.iter(world).map(WatchedRobot::new).collect();
         robots.sort_unstable_by_key(|robot| robot.id);
-        Watch(robots)
+        EventWatch(robots)
     }
 
     /// Looks at the tick that is just over, and tells what happened in it.
     pub(super) fn look(&mut self, world: &mut World) -> Vec<MatchEvent> {
-        let before = std::mem::replace(self, Watch::of(world));
+        let before = std::mem::replace(self, EventWatch::of(world));
         let tick = world.resource::<Clock>().tick.saturating_sub(1);
         let played = world.resource::<MatchState>().time_played(world.resource::<RuleBook>());
         let heard = &world.resource::<Whistles>().heard;

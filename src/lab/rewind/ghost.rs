@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::branch::BranchId;
-use super::events::Watch;
+use super::events::EventWatch;
 use super::line::Rewind;
 use crate::clock::Clock;
 use crate::game::requests::Requests;
@@ -14,7 +14,7 @@ use crate::state::OtherMatch;
 #[derive(Resource)]
 pub struct GhostMatch {
     branch: BranchId,
-    watch: Watch,
+    watch: EventWatch,
     world: World,
 }
 
@@ -32,7 +32,7 @@ impl GhostMatch {
             keyframe.restore(&mut world)?;
         }
         world.resource_mut::<Requests>().clear();
-        let mut ghost = GhostMatch { branch, watch: Watch::of(&mut world), world };
+        let mut ghost = GhostMatch { branch, watch: EventWatch::of(&mut world), world };
         ghost.play_to(rewind, end);
         Ok(ghost)
     }

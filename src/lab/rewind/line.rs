@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 
 use super::branch::{Branch, BranchId};
-use super::events::{MatchEvent, Watch};
+use super::events::{EventWatch, MatchEvent};
 use super::keyframes::Keyframe;
 use super::log::{LoggedRequest, is_of_a_seat};
 use super::track::Ghost;
@@ -17,7 +17,7 @@ use crate::game::requests::Script;
 pub struct Rewind {
     pub(super) branches: Vec<Branch>,
     pub(super) present: BranchId,
-    pub(super) watch: Watch,
+    pub(super) watch: EventWatch,
 }
 
 impl Rewind {
@@ -32,7 +32,7 @@ impl Rewind {
             .collect::<VecDeque<_>>();
         first.track.push(world);
         first.keyframes.insert(tick, Keyframe::take(world));
-        Rewind { branches: vec![first], present: BranchId(0), watch: Watch::of(world) }
+        Rewind { branches: vec![first], present: BranchId(0), watch: EventWatch::of(world) }
     }
 
     /// The branch that is played.
@@ -114,8 +114,10 @@ impl Rewind {
 
     /// The notes of people in a branch and in those that it has come from, with their ticks.
     pub fn bookmarks(&self, branch: BranchId) -> impl Iterator<Item = (u64, &str)> {
-        self.lineage(branch).flat_map(|(branch, until)| {
-            let notes = self.branch(branch).bookmarks.range(..=until);
+        self.lineage(branch).flat_map(move |(id, until)| {
+            // Those of a recording may be of ticks to come.
+            let until = if id == branch { u64::MAX } else { until };
+            let notes = self.branch(id).bookmarks.range(..=until);
             notes.map(|(tick, note)| (*tick, note.as_str()))
         })
     }

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::branch::{Branch, BranchId};
-use super::events::Watch;
+use super::events::EventWatch;
 use super::keyframes::{Keyframe, SPACING};
 use super::line::Rewind;
 use super::log::{LoggedRequest, is_of_a_seat, meddling};
@@ -40,7 +40,7 @@ impl Rewind {
     }
 
     /// Plays one tick of a branch in a world that is there.
-    pub(super) fn play_in(&mut self, branch: BranchId, watch: &mut Watch, world: &mut World) {
+    pub(super) fn play_in(&mut self, branch: BranchId, watch: &mut EventWatch, world: &mut World) {
         let tick = world.resource::<Clock>().tick;
         let is_known = tick < self.branch(branch).end;
         let repeated = if is_known {

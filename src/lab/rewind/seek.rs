@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::branch::BranchId;
-use super::events::Watch;
+use super::events::EventWatch;
 use super::line::Rewind;
 use super::log::{LoggedRequest, is_of_a_seat, meddling};
 use crate::clock::Clock;
@@ -76,7 +76,7 @@ impl Rewind {
         {
             keyframe.restore(world)?;
             self.restore_log(world, copied);
-            self.watch = Watch::of(world);
+            self.watch = EventWatch::of(world);
         }
         world.resource_mut::<Requests>().clear();
         while world.resource::<Clock>().tick < target {

@@ -42,7 +42,7 @@ const APART: f32 = 0.6;
 /// How far beyond the lines the ball is still in the hall, m.
 const HALL: f32 = 3.0;
 
-type Found<'a> = (&'a RobotId, &'a Robot, &'a Pose, &'a Twist, &'a Role, &'a WorldModel);
+type OnPitch<'a> = (&'a RobotId, &'a Robot, &'a Pose, &'a Twist, &'a Role, &'a WorldModel);
 
 /// A robot as a scenario places it.
 struct CapturedRobot {
@@ -112,11 +112,11 @@ impl CapturedMoment<'_> {
         state: &MatchState,
         standing: &mut Vec<(Footprint, Pose)>,
     ) -> Vec<CapturedRobot> {
-        let mut found = world.query_filtered::<Found, Without<OffPitch>>();
+        let mut found = world.query_filtered::<OnPitch, Without<OffPitch>>();
         let mut found: Vec<_> = found.iter(world).collect();
         found.sort_unstable_by_key(|(id, ..)| **id);
         let strategies = world.resource::<Strategies>();
-        let place = |(id, robot, pose, twist, role, model): Found| {
+        let place = |(id, robot, pose, twist, role, model): OnPitch| {
             let ends = state.home_attacks;
             let footprint = Footprint::of_robot(&robot.kind);
             let seen = ends.turn_pose(*pose);
@@ -284,7 +284,7 @@ mod tests {
         (0..300).for_each(|_| game.tick());
         let mislead = RobotChange::Mislead { by: Vec2::new(1.0, -0.5), turn: 0.0 };
         game.world_mut().resource_mut::<Requests>().ask(Request::Robot(lost, mislead));
-        (0..60).for_each(|_| game.tick());
+        (0..4).for_each(|_| game.tick());
         let read = saved_and_played(&mut game, &plan, "friendly");
         let mut poses = game.world_mut().query::<(&RobotId, &Pose)>();
         for (id, pose) in poses.iter(game.world()) {

@@ -11,7 +11,7 @@ use crate::app::view::state::{
 use crate::clock::Clock;
 use crate::data::DataError;
 use crate::game::{net, start_match};
-use crate::lab::replay::{Plans, ReplayHeader};
+use crate::lab::replay::{Bookmark, Plans, Replay, ReplayHeader};
 use crate::lab::rewind::Rewind;
 
 pub(super) fn plugin(app: &mut App) {
@@ -49,6 +49,10 @@ fn plans_for(world: &mut World, request: &MatchRequest) -> Result<(ReplayHeader,
 
 fn begin(world: &mut World, request: MatchRequest, (header, (plan, scenario)): (ReplayHeader, Plans)) {
     start_match(world, &plan);
+    let bookmarks = match &request {
+        MatchRequest::Replay(path) => Replay::read(path).map(|replay| replay.bookmarks()).unwrap_or_default(),
+        _ => Vec::new(),
+    };
     let is_live = !matches!(request, MatchRequest::Replay(_));
     if is_live && let Err(error) = net::open(world, &plan) {
         net::close(world);
@@ -66,6 +70,9 @@ fn begin(world: &mut World, request: MatchRequest, (header, (plan, scenario)): (
     clear(world);
     world.trigger(MatchBegun);
     world.flush();
-    let rewind = Rewind::begin(world);
+    let mut rewind = Rewind::begin(world);
+    for Bookmark { tick, note } in bookmarks {
+        rewind.set_bookmark(tick, note);
+    }
     world.insert_resource(rewind);
 }

@@ -4,20 +4,15 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
 
-use crate::app::view::state::{Beside, FrameSystems, MatchBegun, Session};
+use crate::app::view::state::{Beside, MatchBegun, Session};
 use crate::clock::Clock;
 use crate::lab::rewind::{BranchId, GhostMatch, Rewind};
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<PlayedBeside>()
-        .add_observer(|_: On<MatchBegun>, mut commands: Commands| {
-            commands.insert_resource(Beside::default());
-            commands.insert_resource(PlayedBeside::default());
-        })
-        .add_systems(
-            Update,
-            (show_what_was_left, play_beside).chain().in_set(FrameSystems::Time).after(super::pass_time),
-        );
+    app.init_resource::<PlayedBeside>().add_observer(|_: On<MatchBegun>, mut commands: Commands| {
+        commands.insert_resource(Beside::default());
+        commands.insert_resource(PlayedBeside::default());
+    });
 }
 
 /// The world in which a branch is played beside another, if one is.
@@ -28,7 +23,7 @@ struct PlayedBeside(Option<GhostMatch>);
 const BUDGET: Duration = Duration::from_millis(12);
 
 /// The branch that the match has just left is shown beside it.
-fn show_what_was_left(
+pub(super) fn show_what_was_left(
     rewind: Option<Res<Rewind>>,
     mut beside: ResMut<Beside>,
     mut last: Local<Option<BranchId>>,
@@ -42,7 +37,7 @@ fn show_what_was_left(
     }
 }
 
-fn play_beside(
+pub(super) fn play_beside(
     (rewind, beside): (Option<ResMut<Rewind>>, Res<Beside>),
     (clock, session): (Res<Clock>, Res<Session>),
     mut played: ResMut<PlayedBeside>,

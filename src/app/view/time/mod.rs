@@ -33,7 +33,18 @@ pub(super) fn plugin(app: &mut App) {
         beside::plugin,
         rewinding::plugin,
     ))
-    .add_systems(Update, (rewinding::go, pass_time, announce).chain().in_set(FrameSystems::Time));
+    .add_systems(
+        Update,
+        (
+            rewinding::go,
+            pass_time,
+            rewinding::take_seat_again,
+            (beside::show_what_was_left, beside::play_beside).chain(),
+            announce,
+        )
+            .chain()
+            .in_set(FrameSystems::Time),
+    );
 }
 
 /// The time in one frame after which no further tick is begun: at 64 times on a slow machine the window stays responsive.

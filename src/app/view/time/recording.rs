@@ -8,7 +8,7 @@ use bevy::prelude::*;
 
 use crate::app::view::state::{AfterTick, FileError, MatchBegun, Session};
 use crate::game::requests::RequestLog;
-use crate::lab::replay::Recorder;
+use crate::lab::replay::{Bookmark, Recorder};
 use crate::lab::rewind::{BranchId, Rewind};
 
 pub(super) fn plugin(app: &mut App) {
@@ -36,14 +36,18 @@ impl Recording {
         Recording { wanted, ..Recording::default() }
     }
 
-    fn close(&mut self) -> Option<String> {
+    /// Ends all recordings, each with the bookmarks of its branch.
+    fn close(&mut self, rewind: Option<&Rewind>) -> Option<String> {
         self.present = BranchId::default();
-        let finish = |recorder: Recorder| {
+        let finish = |(branch, mut recorder): (BranchId, Recorder)| {
+            for (tick, note) in rewind.iter().flat_map(|rewind| rewind.bookmarks(branch)) {
+                recorder.mark(Bookmark { tick, note: note.to_owned() });
+            }
             let path = recorder.path().to_owned();
             recorder.finish().err().map(|error| cannot_write(&path, &error))
         };
-        let errors: Vec<String> =
-            std::mem::take(&mut self.recorders).into_values().filter_map(finish).collect();
+        let recorders = std::mem::take(&mut self.recorders);
+        let errors: Vec<String> = recorders.into_iter().filter_map(finish).collect();
         errors.into_iter().next()
     }
 
@@ -68,11 +72,11 @@ impl Recording {
 
 fn begin(
     _: On<MatchBegun>,
-    session: Res<Session>,
+    (session, rewind): (Res<Session>, Option<Res<Rewind>>),
     mut recording: ResMut<Recording>,
     mut file_error: ResMut<FileError>,
 ) {
-    let closed = recording.close();
+    let closed = recording.close(rewind.as_deref());
     let (Some(wanted), Some(header)) = (&recording.wanted, &session.header) else { return };
     let path = numbered(wanted, recording.count + 1);
     let created = Recorder::create(&path, header.clone());
@@ -119,8 +123,8 @@ pub(super) fn follow(world: &mut World, rewind: &Rewind) {
 }
 
 /// The last seconds are recorded when the window closes.
-fn finish(mut recording: ResMut<Recording>) {
-    recording.close();
+fn finish(mut recording: ResMut<Recording>, rewind: Option<Res<Rewind>>) {
+    recording.close(rewind.as_deref());
 }
 
 fn cannot_write(path: &Path, error: &std::io::Error) -> String {

@@ -12,16 +12,15 @@ use crate::lab::rewind::{BranchId, CannotRewind, Rewind};
 use crate::robot::pilot::Pilot;
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_resource::<Wanted>()
+    app.init_resource::<WantedWay>()
         .add_message::<Action>()
         .add_observer(let_go)
-        .add_systems(Update, (want, keep_bookmark).in_set(FrameSystems::Input))
-        .add_systems(Update, take_seat_again.in_set(FrameSystems::Time).after(super::pass_time));
+        .add_systems(Update, (want, keep_bookmark).in_set(FrameSystems::Input));
 }
 
 /// Where a person wants the match to go.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
-struct Wanted(Option<Way>);
+struct WantedWay(Option<Way>);
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Way {
@@ -30,7 +29,7 @@ enum Way {
     BeforeLast,
 }
 
-fn want(mut actions: MessageReader<Action>, clock: Res<Clock>, mut wanted: ResMut<Wanted>) {
+fn want(mut actions: MessageReader<Action>, clock: Res<Clock>, mut wanted: ResMut<WantedWay>) {
     for action in actions.read() {
         // Back from where it is about to be.
         let tick = match wanted.0 {
@@ -59,7 +58,7 @@ fn keep_bookmark(mut actions: MessageReader<Action>, clock: Res<Clock>, rewind: 
 
 /// Goes where a person wants the match to go. Time stands still there.
 pub(super) fn go(world: &mut World) {
-    let Some(way) = world.resource_mut::<Wanted>().bypass_change_detection().0.take() else { return };
+    let Some(way) = world.resource_mut::<WantedWay>().bypass_change_detection().0.take() else { return };
     let gone = world.resource_scope(|world, mut rewind: Mut<Rewind>| {
         let gone = follow(world, &mut rewind, way);
         recording::follow(world, &rewind);
@@ -103,7 +102,7 @@ fn let_go(_: On<Rewound>, mut piloted: ResMut<Piloted>) {
 }
 
 /// Where nothing more is known of what a person did, the robot that is driven is in hand again.
-fn take_seat_again(
+pub(super) fn take_seat_again(
     (rewind, clock): (Option<Res<Rewind>>, Res<Clock>),
     mut piloted: ResMut<Piloted>,
     pilots: Query<&RobotId, With<Pilot>>,
