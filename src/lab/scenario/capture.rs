@@ -1,5 +1,4 @@
-//! The present moment of a match as a scenario: who stands where in which role, where they take themselves to be, where the
-//! ball rolls, and what ails robots and radio. What a scenario cannot say is told in its description.
+//! The present moment of a match as a scenario: who stands where in which role and takes itself to be where, where the ball rolls, and what ails robots and radio. What a scenario cannot say is told in its description.
 
 use bevy::prelude::*;
 
@@ -37,6 +36,8 @@ pub struct CapturedMoment<'a> {
 
 /// Robots that err by less than this take themselves to be where they are, m and rad.
 const ERROR: (f32, f32) = (0.05, 0.05);
+/// A robot that is slower than this stands, m/s.
+const STANDS: f32 = 0.01;
 /// A robot is moved at most this far to stand apart from others, m.
 const APART: f32 = 0.6;
 /// How far beyond the lines the ball is still in the hall, m.
@@ -119,28 +120,40 @@ impl CapturedMoment<'_> {
         let place = |(id, robot, pose, twist, role, model): OnPitch| {
             let ends = state.home_attacks;
             let footprint = Footprint::of_robot(&robot.kind);
-            let seen = ends.turn_pose(*pose);
-            let is_free = |pose: Pose| {
-                let apart = |(other, there): &(Footprint, Pose)| !footprint.overlaps(pose, other, *there);
-                self.plan.pitch.holds(pose.position, 0.0) && standing.iter().all(apart)
+            let free_near = |wanted: Pose| {
+                let is_free = |pose: Pose| {
+                    let apart = |(other, there): &(Footprint, Pose)| !footprint.overlaps(pose, other, *there);
+                    self.plan.pitch.holds(pose.position, 0.0) && standing.iter().all(apart)
+                };
+                nearest_free(wanted, APART, is_free)
             };
-            let pose = nearest_free(seen, APART, is_free).unwrap_or(seen);
+            let seen = ends.turn_pose(*pose);
+            let believed = ends.turn_pose(state.attacking(id.team).turn_pose(model.pose));
+            // It begins where it takes itself to be, and is carried to where it is without being told.
+            let errs = model.is_localised() && differs(seen, believed);
+            let told = Some(believed).filter(|_| errs).and_then(free_near);
+            let mut events = ailments(*id, robot);
+            let start = match told {
+                Some(told) => {
+                    let (to, facing) = (rounded(seen.position), degrees(seen.heading));
+                    events.push(Event::Kidnap { robot: *id, to, facing });
+                    told
+                }
+                None => free_near(seen).unwrap_or(seen),
+            };
             let player = PlayerFile {
                 number: id.number,
-                at: rounded(pose.position),
-                facing: (pose.heading.to_degrees() * 10.0).round() / 10.0,
+                at: rounded(start.position),
+                facing: degrees(start.heading),
                 role: strategies.of(id.team).roles.get(role.0).map(|role| role.name.clone()),
                 off: robot.health.crashed,
             };
-            let mut events = ailments(*id, robot);
             let velocity = ends.turn(twist.linear);
-            if velocity.length() > 0.01 {
+            if velocity.length() > STANDS {
                 let by = rounded(Bound::VELOCITY.clamp_vector(velocity));
                 events.push(Event::Push { robot: *id, by });
             }
-            let believed = ends.turn_pose(state.attacking(id.team).turn_pose(model.pose));
-            events.extend(error(*id, seen, believed));
-            standing.push((footprint, pose));
+            standing.push((footprint, start));
             CapturedRobot { id: *id, player, events }
         };
         found.into_iter().map(place).collect()
@@ -184,13 +197,14 @@ fn ailments(id: RobotId, robot: &Robot) -> Vec<Event> {
         .collect()
 }
 
-/// By how much a robot takes itself to be elsewhere, both in the pitch frame.
-fn error(robot: RobotId, truth: Pose, believed: Pose) -> Option<Event> {
-    let by = believed.position - truth.position;
-    let turn = wrap_angle(believed.heading - truth.heading);
-    let errs = by.length() > ERROR.0 || turn.abs() > ERROR.1;
-    let by = rounded(Bound::PLACE.clamp_vector(by));
-    errs.then_some(Event::Mislead { robot, by, turn: turn.to_degrees().round() })
+/// To tenths.
+fn degrees(heading: f32) -> f32 {
+    (heading.to_degrees() * 10.0).round() / 10.0
+}
+
+fn differs(truth: Pose, believed: Pose) -> bool {
+    let by = believed.position.distance(truth.position);
+    by > ERROR.0 || wrap_angle(believed.heading - truth.heading).abs() > ERROR.1
 }
 
 fn radio_events(interference: &Interference) -> Vec<Event> {
@@ -229,7 +243,7 @@ mod tests {
     use super::super::{ScenarioPlan, ScenarioRef};
     use super::*;
     use crate::data::ron_options;
-    use crate::game::requests::{RadioChange, Request, Requests, RobotChange};
+    use crate::game::requests::{BodyChange, RadioChange, Request, Requests, RobotChange};
     use crate::game::{Choice, Match};
     use crate::robot::RobotFailure;
 
@@ -282,20 +296,36 @@ mod tests {
             game.tick();
         }
         (0..300).for_each(|_| game.tick());
-        let mislead = RobotChange::Mislead { by: Vec2::new(1.0, -0.5), turn: 0.0 };
-        game.world_mut().resource_mut::<Requests>().ask(Request::Robot(lost, mislead));
-        (0..4).for_each(|_| game.tick());
+        let to = Pose::new(-2.0, -1.8, 0.5);
+        game.world_mut()
+            .resource_mut::<Requests>()
+            .ask(Request::Body(BodyChange::Kidnap { robot: lost, to }));
+        game.tick();
         let read = saved_and_played(&mut game, &plan, "friendly");
-        let mut poses = game.world_mut().query::<(&RobotId, &Pose)>();
-        for (id, pose) in poses.iter(game.world()) {
+        let script: Vec<&Event> = read.scenario.script.iter().map(|event| &event.what).collect();
+        let mut robots = game.world_mut().query::<(&RobotId, &Pose, &WorldModel)>();
+        for (id, pose, model) in robots.iter(game.world()) {
             let player =
                 read.scenario.players().find(|player| player.id == *id).expect("all are on the pitch");
-            assert!(player.pose.position.distance(pose.position) < APART + 0.01, "{id}: {:?}", player.pose);
+            let believed = game.state().attacking(id.team).turn_pose(model.pose);
+            assert!(
+                player.pose.position.distance(believed.position) < APART + 0.01,
+                "{id}: {:?}",
+                player.pose
+            );
+            let carried = script.iter().find_map(|event| match event {
+                Event::Kidnap { robot, to, .. } if robot == id => Some(*to),
+                _ => None,
+            });
+            let truth = carried.unwrap_or(player.pose.position);
+            let most = if carried.is_some() { 0.01 } else { APART };
+            assert!(truth.distance(pose.position) < most, "{id} is at {truth}");
+            assert!(
+                *id != lost || truth.distance(player.pose.position) > 0.5,
+                "it does not know where it is"
+            );
         }
-        let script: Vec<&Event> = read.scenario.script.iter().map(|event| &event.what).collect();
         assert!(script.contains(&&Event::Mute(mute)) && script.contains(&&Event::CutOff(lost)), "{script:?}");
-        let is_lost = |event: &&Event| matches!(event, Event::Mislead { robot, by, .. } if *robot == lost && by.x > 0.5);
-        assert!(script.iter().any(is_lost), "{script:?}");
         let mut waiting = Match::new(&plan);
         let moment = CapturedMoment { plan: &plan, game: "friendly", pitch: None, script: &[], seconds: 3.0 };
         let refused = moment.capture(waiting.world_mut()).unwrap_err();

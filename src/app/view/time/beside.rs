@@ -17,7 +17,7 @@ pub(super) fn plugin(app: &mut App) {
 
 /// The world in which a branch is played beside another, if one is.
 #[derive(Resource, Default)]
-struct PlayedBeside(Option<GhostMatch>);
+pub(super) struct PlayedBeside(Option<GhostMatch>);
 
 /// The time in one frame after which the other branch is left behind for this frame.
 const BUDGET: Duration = Duration::from_millis(12);

@@ -109,6 +109,16 @@ fn note(world: &mut World) {
     });
 }
 
+/// From now on a branch is recorded that was recorded before. How many of its ticks are; any number, if there is no recording.
+pub(super) fn take(world: &mut World, branch: BranchId) -> u64 {
+    let mut recording = world.resource_mut::<Recording>();
+    let known = recording.recorders.get(&branch).map(Recorder::ticks);
+    if known.is_some() {
+        recording.present = branch;
+    }
+    known.unwrap_or(u64::MAX)
+}
+
 /// From now on the present branch is recorded. The tick in which it began has just been played, if any has.
 pub(super) fn follow(world: &mut World, rewind: &Rewind) {
     let present = rewind.present();

@@ -84,8 +84,13 @@ fn follow(world: &mut World, rewind: &mut Rewind, way: Way) -> Result<Option<Str
     match way {
         Way::To(tick) => rewind.seek(world, tick, look).map(|()| None),
         Way::ToBranch(branch) => {
-            let tick = world.resource::<Clock>().tick;
-            rewind.switch(world, branch, tick, look)?;
+            let tick = world.resource::<Clock>().tick.min(rewind.branch(branch).end);
+            // What was played beside another branch is recorded now.
+            let recorded = recording::take(world, branch);
+            rewind.switch(world, branch, tick.min(recorded), look)?;
+            while world.resource::<Clock>().tick < tick {
+                rewind.play(world, |world| world.run_schedule(AfterTick));
+            }
             Ok(Some(format!("The branch with {}", rewind.branch(branch).name)))
         }
         Way::BeforeLast => {
