@@ -10,18 +10,14 @@ use crate::app::inspector::RadioView;
 use crate::app::match_request::MatchRequest;
 use crate::app::view::interface::saving::ScenarioFolder;
 use crate::app::view::picture::ghosts::GhostVisual;
-use crate::app::view::state::{
-    Action, Beside, Inspector, Overlay, PendingMatch, Piloted, Playback, Selected, Session,
-};
-use crate::app::view::time::recording::Recording;
+use crate::app::view::state::{Action, Beside, Inspector, Overlay, Piloted, Playback, Selected, Session};
 use crate::clock::Clock;
 use crate::comms::radio::{Loss, Packet, RadioRecord, TransmissionState};
+use crate::game::Choice;
 use crate::game::record::Record;
 use crate::game::requests::{BodyChange, RadioChange, Request, Requests};
-use crate::game::{Choice, Match};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
-use crate::lab::replay::Replay;
 use crate::lab::rewind::{BranchId, MatchEventKind, Rewind};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
 use crate::robot::pilot::Pilot;
@@ -340,41 +336,4 @@ fn another_future_is_shown_as_ghosts_where_it_has_gone_and_goes_on_beside() {
         assert_eq!(ghosts(&mut window), there, "at {tick}");
     }
     assert_eq!(window.rewind().branch(BranchId(0)).end, 220, "the old future went on");
-}
-
-#[test]
-fn each_branch_is_recorded_in_a_file_of_its_own_with_its_bookmarks_and_can_be_played_again() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name);
-    let mut window = LaidOutWindow::new();
-    window.app.insert_resource(Recording::to(Some(path("mine.replay"))));
-    window
-        .app
-        .insert_resource(PendingMatch(Some(MatchRequest::Match(Choice { seed: 3, ..Choice::default() }))));
-    window.frame(SIZE, 1.0);
-    window.play_to(130);
-    window.go_to(70);
-    window.press(KeyCode::KeyB, "b");
-    window.app.world_mut().resource_mut::<Requests>().ask(Request::Radio(RadioChange::Jam(true)));
-    window.play_to(200);
-    let branch = window.digest();
-    window.app.world_mut().write_message(Action::TakeBranch(BranchId(0)));
-    window.frame(SIZE, 1.0);
-    window.play_to(200);
-    let first = window.digest();
-    window.app.world_mut().write_message(AppExit::Success);
-    window.app.update();
-    for (name, digest) in [("mine.replay", first), ("mine-2.replay", branch)] {
-        let replay = Replay::read(&path(name)).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!((replay.ticks(), replay.digest()), (200, Some(digest)), "{name}");
-        let (plan, _) = replay.plans().expect("it has all its files");
-        let mut game = Match::new(&plan);
-        (0..200).for_each(|_| game.tick());
-        assert_eq!(game.record().digest, digest, "{name}");
-        assert_eq!(replay.bookmarks().len(), 1, "{name} shares the tick");
-    }
-    let mut again = LaidOutWindow::with(MatchRequest::Replay(path("mine-2.replay")));
-    again.play_to(200);
-    assert_eq!(again.digest(), branch);
-    assert_eq!(again.rewind().bookmarks(BranchId(0)).collect::<Vec<_>>(), [(70, "A bookmark")]);
 }
