@@ -26,6 +26,10 @@ pub const LARGEST_SEED: u64 = (1 << 53) - 1;
 #[derive(Clone, PartialEq)]
 pub struct Dice(Pcg64Mcg);
 
+/// All dice of a match go on with other streams, which this salt decides: another chance from here on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DiceStirred(pub u64);
+
 /// The generator hides its state; the next number tells streams apart.
 impl fmt::Debug for Dice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -41,6 +45,12 @@ impl Dice {
         let hashed =
             xxh3_64_with_seed(purpose.as_bytes(), seed.0 ^ owner.wrapping_mul(0x9E37_79B9_7F4A_7C15));
         Dice(Pcg64Mcg::seed_from_u64(hashed))
+    }
+
+    /// Goes on with another stream, which this one and the salt decide.
+    pub fn stir(&mut self, DiceStirred(salt): DiceStirred) {
+        let next: u64 = StandardUniform.sample(&mut self.0);
+        *self = Dice(Pcg64Mcg::seed_from_u64(xxh3_64_with_seed(&next.to_le_bytes(), salt)));
     }
 
     /// Uniform in [0, 1).
@@ -84,6 +94,18 @@ mod tests {
         assert_ne!(base, first(1, "odometry", robot));
         assert_ne!(base, first(1, "camera", Some(RobotId::new(Team::Away, 1))));
         assert_ne!(base, first(1, "camera", None));
+    }
+
+    #[test]
+    fn stirred_dice_differ_by_salt_and_repeat() {
+        let stirred = |salt| {
+            let mut dice = Dice::new(Seed(7), "test", None);
+            dice.stir(DiceStirred(salt));
+            dice.uniform()
+        };
+        assert_eq!(stirred(1), stirred(1));
+        assert_ne!(stirred(1), stirred(2));
+        assert_ne!(stirred(1), first(7, "test", None));
     }
 
     #[test]

@@ -7,3 +7,4 @@ pub mod eyes;
 pub mod replay;
 pub mod rewind;
 pub mod scenario;
+pub mod why;

@@ -39,7 +39,7 @@ pub struct BumpSensor {
     is_noticed: bool,
     /// How much longer it reports a block that is none, s.
     mistaken_for: f32,
-    dice: Dice,
+    pub(super) dice: Dice,
 }
 
 impl BumpSensor {

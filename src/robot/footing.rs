@@ -85,7 +85,7 @@ pub struct Footing {
     pub strain: f32,
     /// The tick in which it stands again, after a fall.
     pub down_until: Option<u64>,
-    dice: Dice,
+    pub(super) dice: Dice,
 }
 
 impl Footing {

@@ -40,6 +40,7 @@ pub use wheel_speeds::WheelSpeeds;
 
 use crate::clock::Clock;
 use crate::ids::RobotId;
+use crate::rng::DiceStirred;
 use crate::state::RegisterState;
 use handling::Handling;
 use pilot::Pilot;
@@ -60,7 +61,9 @@ pub(crate) fn plugin(app: &mut App) {
         .may_start(|start: &RobotStart, _| start.calibration.clone().map(CalibratedCamera))
         .on(|camera, set: &CameraSet, _| camera.set(set))
         .on(|camera, set: &ColoursSet, _| camera.set_colours(set));
-    app.match_component::<Odometry>().starts(|start: &RobotStart, _| Odometry::new(start.seed, start.id));
+    app.match_component::<Odometry>()
+        .starts(|start: &RobotStart, _| Odometry::new(start.seed, start.id))
+        .on(|odometry, stirred: &DiceStirred, _| odometry.stir(*stirred));
     app.match_component::<SteeringIntent>()
         .starts(|_: &RobotStart, _| SteeringIntent::Stop)
         .on(|intent, _: &PutDown, _| *intent = SteeringIntent::Stop)
@@ -73,10 +76,12 @@ pub(crate) fn plugin(app: &mut App) {
         .on(DriveCommand::stop);
     app.match_component::<Footing>()
         .starts(|start: &RobotStart, _| Footing::new(start.seed, start.id))
-        .on(|footing, _: &PutDown, _| footing.stand());
+        .on(|footing, _: &PutDown, _| footing.stand())
+        .on(|footing, stirred: &DiceStirred, _| footing.dice.stir(*stirred));
     app.match_component::<Handling>()
         .starts(|start: &RobotStart, _| Handling::new(start.seed, start.id))
-        .on(|handling, _: &PutDown, _| handling.let_go());
+        .on(|handling, _: &PutDown, _| handling.let_go())
+        .on(|handling, stirred: &DiceStirred, _| handling.dice.stir(*stirred));
 }
 
 /// A robot; its entity is its drive unit. Its health is changed by the Script stage only.

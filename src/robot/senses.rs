@@ -10,7 +10,7 @@ use super::bump::BumpSensor;
 use super::sensing::{Camera, Eyes};
 use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::ids::{RobotId, Team};
-use crate::rng::{Dice, Seed};
+use crate::rng::{Dice, DiceStirred, Seed};
 
 /// What a robot's sensors say: the newest camera frame that has arrived.
 #[derive(Component, Clone, Debug, Default)]
@@ -76,6 +76,11 @@ impl Odometry {
             unjudged: 0.0,
             dice: Dice::new(seed, "odometry", Some(robot)),
         }
+    }
+
+    pub(super) fn stir(&mut self, stirred: DiceStirred) {
+        self.dice.stir(stirred);
+        self.bump.dice.stir(stirred);
     }
 }
 

@@ -10,14 +10,14 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
 use crate::pitch::BallKind;
-use crate::rng::{Dice, Seed};
+use crate::rng::{Dice, DiceStirred, Seed};
 use crate::robot::{Robot, Scoop};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
 use crate::world::physics::{Bodies, step};
 
 pub(super) fn plugin(app: &mut App) {
-    app.match_component::<BallDice>();
+    app.match_component::<BallDice>().on(|dice, stirred: &DiceStirred, _| dice.0.stir(*stirred));
     app.match_component::<Rolling>().on(|rolling, put: &BallPut, _| rolling.0 = put.velocity);
     app.add_systems(Tick, (hold_ball_in_scoops, roll_ball).chain().before(step).in_set(TickSystems::Physics));
 }

@@ -18,6 +18,7 @@ mod robot;
 mod run;
 mod run_report;
 mod trials;
+mod why;
 mod windows;
 
 use std::io::{self, Write};
@@ -51,6 +52,9 @@ enum CliCommand {
     /// Play a recorded match again, and compare it with its recording tick by tick.
     #[command(after_help = EXIT_CODES)]
     Replay(replay::ReplayCommand),
+    /// Play a stretch of a recorded match again with one thing changed each time, and rank what then comes otherwise.
+    #[command(after_help = EXIT_CODES)]
+    Why(why::WhyCommand),
     /// Let a few robots of two strategies fight for a free ball, many times, and print the share that each side wins.
     #[command(after_help = EXIT_CODES)]
     Duel(duel::DuelCommand),
@@ -96,6 +100,7 @@ impl Cli {
             Some(CliCommand::Play(play)) => play.run(&assets, &mut out),
             Some(CliCommand::Run(run)) => run.run(&assets, &mut out),
             Some(CliCommand::Replay(replay)) => replay.run(&assets, &mut out),
+            Some(CliCommand::Why(why)) => why.run(&mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),

@@ -20,7 +20,7 @@ use super::packet::Packet;
 use super::preset::{Budget, Radio, SharedBy};
 use crate::clock::Clock;
 use crate::ids::RobotId;
-use crate::rng::{Dice, Seed};
+use crate::rng::{Dice, DiceStirred, Seed};
 
 /// What the channel does with a packet. One that is lost has no arrivals, any other has one or more.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -172,6 +172,12 @@ impl Channel {
         for link in self.links.values_mut() {
             link.bad = false;
         }
+    }
+
+    /// Another chance from here on, also on links that nothing has been sent on.
+    pub fn stir(&mut self, stirred: DiceStirred) {
+        self.links.values_mut().for_each(|link| link.dice.stir(stirred));
+        self.seed = Seed(self.seed.0 ^ stirred.0);
     }
 
     /// Sends a packet over so many metres in the clock's present tick. Every packet that finds its bytes in the bucket is charged, also if

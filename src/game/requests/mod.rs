@@ -6,6 +6,7 @@
 //! that does not depend on what arrived first. Then each kind of request is carried out by the file of its name.
 
 mod bodies;
+mod dice;
 mod light;
 mod pilots;
 mod queue;
@@ -36,6 +37,7 @@ pub(super) fn plugin(app: &mut App) {
         radio::change_radio,
         bodies::move_bodies,
         light::change_light,
+        dice::stir_dice,
         referee_box::hear_referee_box,
         remote::hear_remote_robots,
     );

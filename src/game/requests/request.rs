@@ -44,6 +44,8 @@ pub enum Request {
     Remote(RobotId, RemoteNews),
     /// A datagram that has reached a robot of this process over a real network.
     Datagram(NetworkDatagram),
+    /// All dice go on with other streams, which this number decides: another chance from here on.
+    StirDice(u64),
     /// The team plays on with another strategy, or with a changed one, if it [can](Strategy::can_follow). It cannot be written
     /// to a file, since names and places have been looked up in it; what it was read from can. It stays the last one, so that
     /// those before it have the same numbers when they are written and when they are read.
@@ -225,6 +227,7 @@ impl Request {
             | Request::Robot(..)
             | Request::Radio(_)
             | Request::Light(_)
+            | Request::StirDice(_)
             | Request::Body(_) => Origin::Person,
         }
     }

@@ -26,6 +26,7 @@ pub fn meddling(request: &Request) -> Option<String> {
         Request::Body(BodyChange::Push { robot, .. }) => format!("{robot} pushed"),
         Request::Body(BodyChange::Kidnap { robot, .. }) => format!("{robot} carried"),
         Request::Light(_) => "the light".into(),
+        Request::StirDice(_) => "other dice".into(),
         Request::ChangeStrategy { team, .. } => format!("the strategy of {team}"),
         Request::RefereeBox { .. } | Request::Remote(..) | Request::Datagram(_) => return None,
     })

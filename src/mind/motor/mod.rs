@@ -24,7 +24,7 @@ use crate::ids::RobotId;
 use crate::mind::perception::{Decider, Memory, Perception, perception};
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
-use crate::rng::{Dice, Seed};
+use crate::rng::{Dice, DiceStirred, Seed};
 use crate::robot::{KickIntent, OffPitch, RobotKind, RobotStart, RobotState};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
@@ -32,7 +32,9 @@ use crate::strategy::{Activity, State, Strategies, Turn};
 
 pub(super) fn plugin(app: &mut App) {
     app.match_component::<Contributions>().starts(|_: &RobotStart, _| Contributions::default());
-    app.match_component::<MotorDice>().starts(|start: &RobotStart, _| MotorDice::new(start.seed, start.id));
+    app.match_component::<MotorDice>()
+        .starts(|start: &RobotStart, _| MotorDice::new(start.seed, start.id))
+        .on(|dice, stirred: &DiceStirred, _| dice.0.stir(*stirred));
     app.add_systems(Tick, (run_assemblages, head::aim_heads).in_set(TickSystems::Motor));
 }
 

@@ -27,6 +27,7 @@ pub use swap::{SwapAsked, Swapping};
 pub use team_model::{BookingStatus, Carrier, LastSent, TeamModel, kick_off_roles};
 
 use crate::ids::RobotId;
+use crate::rng::DiceStirred;
 use crate::robot::{Restart, RobotStart, StrategyChanged, SwitchedOn};
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
@@ -37,7 +38,8 @@ pub(crate) fn state(app: &mut App) {
     app.match_component::<Swapping>()
         .may_start(|start: &RobotStart, _| Swapping::new(&start.strategy, start.id, start.seed))
         .on(|swapping, on: &SwitchedOn, _| swapping.restart(on.restart))
-        .on(|swapping, SwapAsked(reassignment), _| swapping.asked = Some(reassignment.clone()));
+        .on(|swapping, SwapAsked(reassignment), _| swapping.asked = Some(reassignment.clone()))
+        .on(|swapping, stirred: &DiceStirred, _| swapping.dice.stir(*stirred));
     app.match_component::<Role>()
         .reflected()
         .starts(|start: &RobotStart, _| Role(start.role))

@@ -41,7 +41,7 @@ pub struct Swapping {
     planned: Option<Assignment>,
     /// A swap that a script wants, whatever the policy says.
     pub(super) asked: Option<Reassignment>,
-    dice: Dice,
+    pub(super) dice: Dice,
 }
 
 /// A person or a script wants a robot to decide that roles are swapped.

@@ -20,6 +20,7 @@ pub use wheels::{Rigid, push_wheels};
 
 use crate::clock::Clock;
 use crate::geometry::wrap_angle;
+use crate::rng::DiceStirred;
 use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{
@@ -32,7 +33,9 @@ use crate::world::body_events::BodyEvents;
 use crate::world::physics::Bodies;
 
 pub(super) fn plugin(app: &mut App) {
-    app.match_component::<GaitError>().starts(|start: &RobotStart, _| GaitError::new(start.seed, start.id));
+    app.match_component::<GaitError>()
+        .starts(|start: &RobotStart, _| GaitError::new(start.seed, start.id))
+        .on(|error, stirred: &DiceStirred, _| error.dice.stir(*stirred));
     app.match_resource::<BodyEvents>().starts_empty();
     let driving = (footing::keep_footing, command_motors, push_bodies).chain();
     app.add_systems(Tick, (driving, neck::turn_heads).in_set(TickSystems::Drive));

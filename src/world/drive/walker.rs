@@ -20,7 +20,7 @@ pub struct GaitError {
     /// In shares of the noise's deviations: along the walk, ahead, to the left, and of the turn.
     drawn: [f32; 4],
     until: u64,
-    dice: Dice,
+    pub(super) dice: Dice,
 }
 
 impl GaitError {

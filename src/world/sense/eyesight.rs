@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use super::localisation::PoseError;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
-use crate::rng::{Dice, Seed};
+use crate::rng::{Dice, DiceStirred, Seed};
 use crate::robot::{Eyes, Frame, Sensing};
 
 /// A robot's eyes, with the errors and the frames that are under way inside them.
@@ -43,6 +43,12 @@ impl Eyesight {
     /// Forgets the frames under way, as when people carry the robot elsewhere.
     pub(super) fn blink(&mut self) {
         self.under_way.clear();
+    }
+
+    pub(super) fn stir(&mut self, stirred: DiceStirred) {
+        for dice in [&mut self.camera_dice, &mut self.identity_dice, &mut self.localisation_dice] {
+            dice.stir(stirred);
+        }
     }
 
     /// What a robot takes its pose to be that people put down here.

@@ -12,7 +12,7 @@ use super::picture::{Canvas, Hall, Light, Moment, Shot};
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Sighting};
 use crate::pitch::{BallKind, Pitch};
-use crate::rng::{Dice, Seed};
+use crate::rng::{Dice, DiceStirred, Seed};
 use crate::robot::{Fix, Frame, PlaceError, PutDown, Robot, RobotStart, SwitchedOn};
 use crate::state::RegisterState;
 use crate::vision::localise::{FilterErrors, PoseDeviation, PoseFilter, SeenLandmark};
@@ -27,6 +27,7 @@ pub(super) fn state(app: &mut App) {
     app.match_resource::<HallLight>();
     app.match_component::<ImageMemory>()
         .may_start(|start: &RobotStart, _| start.calibration.is_some().then(|| ImageMemory::new(start)))
+        .on(|memory, stirred: &DiceStirred, _| memory.dice.stir(*stirred))
         .on(|memory, put: &PutDown, owner| {
             if let Some(robot) = owner.get::<Robot>() {
                 memory.filter = PoseFilter::told(put.told, by_hand(robot.sensing.eyes.put_down()));
@@ -55,6 +56,11 @@ impl HallLight {
     /// The light with which a match begins.
     pub fn new(light: Light, seed: Seed) -> HallLight {
         HallLight { light, dice: Dice::new(seed, "light", None) }
+    }
+
+    /// Another chance from here on.
+    pub fn stir(&mut self, stirred: DiceStirred) {
+        self.dice.stir(stirred);
     }
 
     /// Lets the light drift for some seconds.

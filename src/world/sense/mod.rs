@@ -30,7 +30,7 @@ use crate::clock::Clock;
 use crate::geometry::{Pose, Sighting, wrap_angle};
 use crate::ids::RobotId;
 use crate::pitch::{BallKind, Pitch};
-use crate::rng::Dice;
+use crate::rng::{Dice, DiceStirred};
 use crate::robot::handling::Handling;
 use crate::robot::{
     Camera, Eyes, Fix, Frame, Head, Localisation, Misled, OffPitch, Percepts, PutDown, Robot, RobotStart,
@@ -46,7 +46,8 @@ pub(super) fn plugin(app: &mut App) {
         .starts(|start: &RobotStart, _| Eyesight::new(&start.sensing, start.seed, start.id))
         .on(|eyesight, _: &PutDown, _| eyesight.blink())
         .on(|eyesight, _: &SwitchedOn, _| eyesight.blink())
-        .on(|eyesight, misled: &Misled, _| eyesight.misled = PoseError::of(misled.by, misled.turn));
+        .on(|eyesight, misled: &Misled, _| eyesight.misled = PoseError::of(misled.by, misled.turn))
+        .on(|eyesight, stirred: &DiceStirred, _| eyesight.stir(*stirred));
     images::state(app);
     let pictures = shutter::take_pictures.run_if(any_with_component::<ImageEyes>);
     let in_order = (take_frames, read_odometry, shutter::drift_light, pictures, deliver_frames).chain();

@@ -1,0 +1,73 @@
+//! `touchline why`: what in a stretch of a recorded match has led to where it then stands.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::ending::{CommandError, Ending, print_json};
+use super::interrupt::Interrupt;
+use super::progress::progress_bar;
+use crate::lab::replay::Replay;
+use crate::lab::why::{WhyChoice, WhyPlan};
+
+#[derive(Args, Debug)]
+pub(super) struct WhyCommand {
+    /// A file that `--record` has written.
+    file: PathBuf,
+    /// The tick after which the match stands as it is to be explained; the last one if not given.
+    #[arg(long, value_name = "TICK")]
+    at: Option<u64>,
+    /// How many seconds before that things are changed.
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = horizon)]
+    horizon: f32,
+    /// With how many other dice each difference is tried.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=1000))]
+    seeds: u32,
+    /// How many changes are tried at most, those nearest to the tick first.
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u32).range(1..))]
+    most: u32,
+    /// Record the matches of the first findings in this folder, from which `replay` plays them.
+    #[arg(long, value_name = "FOLDER")]
+    forks: Option<PathBuf>,
+    /// Print the result as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Findings that are recorded at most.
+const FORKS: usize = 12;
+
+/// Reads a time that the radio remembers.
+fn horizon(text: &str) -> Result<f32, String> {
+    let seconds = text.parse::<f32>().ok().filter(|seconds| (0.1..=60.0).contains(seconds));
+    seconds.ok_or_else(|| "must be a number of seconds, from 0.1 to 60".into())
+}
+
+impl WhyCommand {
+    pub(super) fn run(&self, out: &mut impl Write) -> Result<Ending, CommandError> {
+        let replay = Replay::read(&self.file)?;
+        let (at, horizon, seeds, most) = (self.at, self.horizon, self.seeds, self.most as usize);
+        let plan = WhyPlan::read(&replay, WhyChoice { at, horizon, seeds, most })?;
+        let interrupt = Interrupt::listen();
+        let bar = progress_bar(0, "{bar:40} {pos} of {len} changes, {eta} left");
+        let begins = |count: usize| bar.set_length(count as u64);
+        let report = plan.run(begins, |done| {
+            bar.set_position(done.into());
+            !interrupt.is_asked()
+        });
+        bar.finish_and_clear();
+        if self.json {
+            print_json(&report, out)?;
+        } else {
+            write!(out, "{report}")?;
+        }
+        for (place, finding) in report.findings.iter().take(FORKS).enumerate() {
+            let Some(folder) = self.forks.as_deref().filter(|_| !interrupt.is_asked()) else { break };
+            std::fs::create_dir_all(folder).map_err(CommandError::file(folder))?;
+            let path = folder.join(format!("{}.replay", place + 1));
+            plan.record(finding, &path).map_err(CommandError::file(&path))?;
+        }
+        Ok(Ending::of_run(report.interrupted))
+    }
+}

@@ -1,0 +1,114 @@
+use std::path::Path;
+
+use bevy::prelude::*;
+
+use super::*;
+use crate::comms::radio::Loss;
+use crate::comms::tcm::DataType;
+use crate::data::AssetFolder;
+use crate::game::Match;
+use crate::game::requests::{Request, RequestLog, Requests, RobotChange};
+use crate::ids::{RobotId, Team};
+use crate::lab::replay::{Recorded, Recorder, Replay, ReplayHeader};
+use crate::lab::scenario::ScenarioRef;
+use crate::robot::RobotFailure;
+
+const HOME_1: RobotId = RobotId::new(Team::Home, 1);
+const HOME_3: RobotId = RobotId::new(Team::Home, 3);
+
+/// Records a scenario for so many ticks; `meddle` may ask for something before each.
+fn recorded(name: &str, path: &Path, ticks: u64, meddle: impl Fn(&mut Match)) -> Replay {
+    let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+    let scenario = ScenarioRef::named(&assets, name);
+    let place = Vec2::new(-4.2, -2.2);
+    let scenario = Recorded::Scenario { scenario, place, seed: 1, without: None };
+    let (header, (plan, _)) = ReplayHeader::of(scenario, &assets).unwrap();
+    let mut recorder = Recorder::create(path, header).unwrap();
+    let mut game = Match::new(&plan);
+    game.world_mut().insert_resource(RequestLog::default());
+    while game.clock().tick < ticks {
+        meddle(&mut game);
+        game.tick();
+        recorder.note(game.world_mut()).unwrap();
+    }
+    recorder.finish().unwrap();
+    Replay::read(path).unwrap()
+}
+
+fn ask(replay: &Replay, at: u64) -> (WhyPlan, WhyReport) {
+    let choice = WhyChoice { at: Some(at), horizon: 4.0, seeds: 3, most: 1000 };
+    let plan = WhyPlan::read(replay, choice).unwrap();
+    let report = plan.run(|_| {}, |_| true);
+    (plan, report)
+}
+
+const DOUBLED: &str = "counterexample_02_two_generals_unlocked_at_once:paper";
+
+#[test]
+fn the_lost_acknowledgement_that_doubled_a_role_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let replay = recorded(DOUBLED, &folder.path().join("a.replay"), 240, |_| {});
+    let (plan, report) = ask(&replay, 200);
+    assert_eq!(report.outcome.doubled, [(Team::Home, "halfback".to_owned())]);
+    assert!(!report.interrupted && report.left_out == 0 && report.tried > 10);
+    let arrives = |finding: &&WhyFinding| match &finding.candidate.meddling {
+        Meddling::Deliver { packet, reason } => {
+            *reason == Loss::Fault
+                && (packet.kind, packet.from, packet.to) == (DataType::ACK_SWAP, HOME_3, HOME_1)
+        }
+        _ => false,
+    };
+    let found = report.findings.iter().find(arrives).expect("it makes a difference");
+    let once = StandingDifference::DoubledRoles { now: Vec::new(), before: vec!["home halfback".into()] };
+    assert_eq!((&found.difference, found.agree), (&once, 3));
+    let told = report.to_string();
+    let line = "the ACKSWAP from home 3 to home 1, which was lost (fault rule), arrives: no role is given twice; \
+                it was home halfback (3 of 3 other dice agree)";
+    assert!(told.contains(line), "{told}");
+    // What is more likely to be the reason comes before what is less.
+    let ranks = report.findings.iter().map(|finding| (finding.difference.weight(), finding.agree));
+    assert!(ranks.is_sorted_by(|one, other| one >= other));
+    let fork = folder.path().join("fork.replay");
+    plan.record(found, &fork).unwrap();
+    let fork = Replay::read(&fork).unwrap();
+    assert_eq!(fork.header.branched, Some(found.candidate.tick));
+    let mut game = Match::new(&fork.plans().unwrap().0);
+    while game.clock().tick <= 200 {
+        game.tick();
+    }
+    assert_eq!(MatchStanding::of(game.world_mut()).doubled, []);
+}
+
+#[test]
+fn a_crash_is_undone_and_a_swap_goes_unheard() {
+    let folder = tempfile::tempdir().unwrap();
+    let crash = |game: &mut Match| {
+        if game.clock().tick == 61 {
+            let fail = RobotChange::Fail(RobotFailure::Crashed);
+            game.world_mut().resource_mut::<Requests>().ask(Request::Robot(HOME_1, fail));
+        }
+    };
+    let replay = recorded("swap_figure_8", &folder.path().join("a.replay"), 240, crash);
+    let plan = WhyPlan::read(&replay, WhyChoice { at: None, horizon: 4.0, seeds: 0, most: 1000 }).unwrap();
+    let mut tried = 0;
+    let report = plan.run(|count| tried = count, |_| true);
+    assert_eq!((report.outcome.tick, report.tried), (240, tried));
+    let crash = Candidate { tick: 61, meddling: Meddling::NoCrash(HOME_1) };
+    let script = &replay.plans().unwrap().0.script;
+    assert_eq!(crash.applied(script, 1.0 / 60.0).len(), script.len() - 1);
+    let unheard = Meddling::Unheard { kind: DataType::LOCK, from: HOME_1, until: 62 };
+    assert!(unheard.to_string().contains("the swap of home 1"));
+}
+
+#[test]
+fn a_person_can_stop_it_and_what_the_recording_does_not_hold_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let replay = recorded(DOUBLED, &folder.path().join("a.replay"), 120, |_| {});
+    let choice = WhyChoice { at: None, horizon: 2.0, seeds: 0, most: 7 };
+    let plan = WhyPlan::read(&replay, choice).unwrap();
+    let report = plan.run(|_| {}, |done| done < 2);
+    assert!(report.interrupted && report.tried < 7, "{}", report.tried);
+    assert!(report.left_out > 0);
+    let error = WhyPlan::read(&replay, WhyChoice { at: Some(120), ..choice }).err().unwrap();
+    assert_eq!(error.to_string(), "--at: the recording ends with tick 119");
+}
