@@ -85,6 +85,36 @@ impl Rewind {
         Ok(())
     }
 
+    /// All that was asked for in the present branch and is planned in it.
+    pub fn requests(&self) -> Vec<(u64, Request)> {
+        let made = self.requests_from(self.present, self.start());
+        made.into_iter().map(|made| (made.tick, made.request)).collect()
+    }
+
+    /// Goes to a tick of the present branch, and from there on into a new one in which these requests are made and no others.
+    ///
+    /// # Errors
+    /// If it cannot. Then nothing changes.
+    pub fn branch_with(
+        &mut self,
+        world: &mut World,
+        (tick, name): (u64, String),
+        requests: Vec<(u64, Request)>,
+        look: &mut dyn FnMut(&mut World),
+    ) -> Result<(), CannotRewind> {
+        let mut known: Vec<LoggedRequest> = self.requests_from(self.present, tick);
+        self.seek(world, tick, look)?;
+        let planned = requests.into_iter().filter(|(of, _)| *of >= tick).map(|(tick, request)| {
+            let place = known.iter().position(|made| made.tick == tick && made.request == request);
+            let scripted = place.is_some_and(|place| known.swap_remove(place).scripted);
+            LoggedRequest { tick, request, scripted }
+        });
+        let mut planned: Vec<LoggedRequest> = planned.collect();
+        planned.sort_by_key(|made| made.tick);
+        self.branch_off(tick, name, planned);
+        Ok(())
+    }
+
     /// The log of requests, if one is kept in the world, is that of the present branch up to a tick.
     fn restore_log(&self, world: &mut World, tick: u64) {
         if let Some(mut log) = world.get_resource_mut::<RequestLog>() {

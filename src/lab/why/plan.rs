@@ -13,7 +13,7 @@ use super::play::{ReplayedStretch, SPACING};
 use super::standing::MatchStanding;
 use crate::comms::radio::RadioRecord;
 use crate::data::DataError;
-use crate::game::requests::RequestLog;
+use crate::game::requests::{Request, RequestLog};
 use crate::game::{Match, MatchPlan};
 use crate::lab::replay::{Recorder, Replay, ReplayHeader};
 use crate::state::Snapshot;
@@ -52,6 +52,20 @@ impl WhyPlan {
             return Err(DataError::new("--at", format!("the recording ends with tick {last}")));
         }
         Ok(WhyPlan { choice, header: replay.header.clone(), plan, at })
+    }
+
+    /// Of a match that is played now, with all requests so far.
+    ///
+    /// # Errors
+    /// The first fault of its files; they were sound when it began.
+    pub fn of(
+        header: &ReplayHeader,
+        script: Vec<(u64, Request)>,
+        at: u64,
+        choice: WhyChoice,
+    ) -> Result<WhyPlan, DataError> {
+        let (plan, _) = header.recorded.plans(&header.assets())?;
+        Ok(WhyPlan { choice, header: header.clone(), plan: MatchPlan { script, ..plan }, at })
     }
 
     /// Plays the match up to the tick in question, and then the stretch before it with each change on all cores; or until it is

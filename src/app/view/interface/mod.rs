@@ -17,6 +17,7 @@ mod time_line;
 mod time_scale;
 mod top_bar;
 mod waiting;
+mod why_box;
 pub mod window_size;
 
 use bevy::prelude::*;
@@ -31,5 +32,11 @@ pub(super) fn plugin(app: &mut App) {
         help::plugin,
         menu::plugin,
     ))
-    .add_plugins((scenario_box::plugin, waiting::plugin, settings::plugin, window_size::plugin));
+    .add_plugins((
+        scenario_box::plugin,
+        waiting::plugin,
+        why_box::plugin,
+        settings::plugin,
+        window_size::plugin,
+    ));
 }

@@ -51,6 +51,7 @@ pub fn show_past_menu(
         ui.horizontal(|ui| {
             button(ui, "Bookmark", Action::Bookmark);
             button(ui, "Undo", Action::Undo);
+            button(ui, "Why?", Action::Why);
             button(ui, "Save as scenario", Action::SaveScenario);
         });
         ui.separator();

@@ -22,6 +22,10 @@ pub enum Action {
     Undo,
     /// Write the present moment as a scenario.
     SaveScenario,
+    /// Say why things stand as they do.
+    Why,
+    /// Play on in a branch with one of the reasons undone, by its place.
+    TakeReason(usize),
     /// Keep a bookmark here.
     Bookmark,
     /// Play faster.

@@ -2,6 +2,7 @@
 //! anywhere else in the window.
 
 pub mod announcements;
+pub mod asking;
 mod begin;
 mod beside;
 pub mod expectations;
@@ -24,6 +25,7 @@ use crate::world::referee::{MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
     app.add_plugins((
+        asking::plugin,
         begin::plugin,
         recording::plugin,
         reload::plugin,

@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 
+use super::asking::AskedWhy;
 use super::recording;
 use crate::app::view::state::{
     Action, AfterTick, Announcement, FileError, FrameSystems, Piloted, Playback, Rewound,
@@ -9,6 +10,7 @@ use crate::app::view::state::{
 use crate::clock::Clock;
 use crate::ids::RobotId;
 use crate::lab::rewind::{BranchId, CannotRewind, Rewind};
+use crate::lab::why::Candidate;
 use crate::robot::pilot::Pilot;
 
 pub(super) fn plugin(app: &mut App) {
@@ -26,6 +28,8 @@ struct WantedWay(Option<Way>);
 enum Way {
     To(u64),
     ToBranch(BranchId),
+    /// Into the branch of a reason that was found, by its place.
+    Reason(usize),
     BeforeLast,
 }
 
@@ -40,6 +44,7 @@ fn want(mut actions: MessageReader<Action>, clock: Res<Clock>, mut wanted: ResMu
             Action::TickBack => Way::To(tick.saturating_sub(1)),
             Action::GoTo(tick) => Way::To(tick),
             Action::TakeBranch(branch) => Way::ToBranch(branch),
+            Action::TakeReason(place) => Way::Reason(place),
             Action::Undo => Way::BeforeLast,
             _ => continue,
         });
@@ -92,6 +97,15 @@ fn follow(world: &mut World, rewind: &mut Rewind, way: Way) -> Result<Option<Str
                 rewind.play(world, |world| world.run_schedule(AfterTick));
             }
             Ok(Some(format!("The branch with {}", rewind.branch(branch).name)))
+        }
+        Way::Reason(place) => {
+            let Some(Candidate { tick, meddling }) = world.resource::<AskedWhy>().reason(place) else {
+                return Ok(None);
+            };
+            let (name, dt) = (meddling.to_string(), world.resource::<Clock>().dt);
+            let changed = Candidate { tick, meddling }.applied(&rewind.requests(), dt);
+            rewind.branch_with(world, (tick, name.clone()), changed, look)?;
+            Ok(Some(format!("A branch in which {name}")))
         }
         Way::BeforeLast => {
             let undone = rewind.undo(world, look)?;
