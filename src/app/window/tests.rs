@@ -3,6 +3,7 @@
 mod camera;
 mod rewind;
 mod silent_robots;
+mod why;
 
 use std::time::Duration;
 

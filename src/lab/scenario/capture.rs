@@ -244,7 +244,9 @@ mod tests {
     use super::super::{ScenarioPlan, ScenarioRef};
     use super::*;
     use crate::data::ron_options;
+    use crate::game::requests::{BodyChange, RadioChange, Request, Requests, RobotChange};
     use crate::game::{Choice, Match};
+    use crate::robot::RobotFailure;
 
     fn assets() -> AssetFolder {
         AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"))
@@ -281,5 +283,53 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_saved_moment_has_places_roles_health_and_radio_as_they_are() {
+        let plan = MatchPlan::read(&assets(), &Choice { seed: 3, ..Choice::default() }).unwrap();
+        let mut game = Match::new(&plan);
+        let [mute, lost] = [1, 2].map(|number| RobotId::new(Team::Home, number));
+        let mut requests = game.world_mut().resource_mut::<Requests>();
+        requests.ask(Request::Robot(mute, RobotChange::Fail(RobotFailure::Mute)));
+        requests.ask(Request::Radio(RadioChange::CutOff(lost)));
+        while game.state().phase != Phase::Playing {
+            game.tick();
+        }
+        (0..300).for_each(|_| game.tick());
+        let to = Pose::new(-2.0, -1.8, 0.5);
+        game.world_mut()
+            .resource_mut::<Requests>()
+            .ask(Request::Body(BodyChange::Kidnap { robot: lost, to }));
+        game.tick();
+        let read = saved_and_played(&mut game, &plan, "friendly");
+        let script: Vec<&Event> = read.scenario.script.iter().map(|event| &event.what).collect();
+        let mut robots = game.world_mut().query::<(&RobotId, &Pose, &WorldModel)>();
+        for (id, pose, model) in robots.iter(game.world()) {
+            let player =
+                read.scenario.players().find(|player| player.id == *id).expect("all are on the pitch");
+            let believed = game.state().attacking(id.team).turn_pose(model.pose);
+            assert!(
+                player.pose.position.distance(believed.position) < APART + 0.01,
+                "{id}: {:?}",
+                player.pose
+            );
+            let carried = script.iter().find_map(|event| match event {
+                Event::Kidnap { robot, to, .. } if robot == id => Some(*to),
+                _ => None,
+            });
+            let truth = carried.unwrap_or(player.pose.position);
+            let most = if carried.is_some() { 0.01 } else { APART };
+            assert!(truth.distance(pose.position) < most, "{id} is at {truth}");
+            assert!(
+                *id != lost || truth.distance(player.pose.position) > 0.5,
+                "it does not know where it is"
+            );
+        }
+        assert!(script.contains(&&Event::Mute(mute)) && script.contains(&&Event::CutOff(lost)), "{script:?}");
+        let mut waiting = Match::new(&plan);
+        let moment = CapturedMoment { plan: &plan, game: "friendly", pitch: None, script: &[], seconds: 3.0 };
+        let refused = moment.capture(waiting.world_mut()).unwrap_err();
+        assert!(refused.contains("wait until it is"), "{refused}");
     }
 }

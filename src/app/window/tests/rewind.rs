@@ -10,39 +10,41 @@ use crate::app::inspector::RadioView;
 use crate::app::match_request::MatchRequest;
 use crate::app::view::interface::saving::ScenarioFolder;
 use crate::app::view::picture::ghosts::GhostVisual;
-use crate::app::view::state::{Action, Beside, Inspector, Overlay, Piloted, Playback, Selected, Session};
-use crate::app::view::time::asking::AskedWhy;
+use crate::app::view::state::{
+    Action, Beside, Inspector, Overlay, PendingMatch, Piloted, Playback, Selected, Session,
+};
+use crate::app::view::time::recording::Recording;
 use crate::clock::Clock;
 use crate::comms::radio::{Loss, Packet, RadioRecord, TransmissionState};
-use crate::game::Choice;
 use crate::game::record::Record;
 use crate::game::requests::{BodyChange, RadioChange, Request, Requests};
+use crate::game::{Choice, Match};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
+use crate::lab::replay::Replay;
 use crate::lab::rewind::{BranchId, MatchEventKind, Rewind};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
-use crate::lab::why::MatchStanding;
 use crate::robot::pilot::Pilot;
 use crate::world::ball::Ball;
 
-const SIZE: egui::Vec2 = vec2(1280.0, 720.0);
+pub(super) const SIZE: egui::Vec2 = vec2(1280.0, 720.0);
 const MINE: RobotId = RobotId::new(Team::Home, 1);
 
 impl LaidOutWindow {
-    fn clock(&self) -> u64 {
+    pub(super) fn clock(&self) -> u64 {
         self.app.world().resource::<Clock>().tick
     }
 
-    fn digest(&self) -> u64 {
+    pub(super) fn digest(&self) -> u64 {
         self.app.world().resource::<Record>().digest
     }
 
-    fn rewind(&self) -> &Rewind {
+    pub(super) fn rewind(&self) -> &Rewind {
         self.app.world().resource::<Rewind>()
     }
 
     /// Plays until so many ticks are over, and is paused there.
-    fn play_to(&mut self, until: u64) {
+    pub(super) fn play_to(&mut self, until: u64) {
         while self.clock() < until {
             let mut playback = self.app.world_mut().resource_mut::<Playback>();
             (playback.paused, playback.single_ticks) = (true, 1);
@@ -52,7 +54,7 @@ impl LaidOutWindow {
     }
 
     /// Presses a key and lets it go.
-    fn press(&mut self, key_code: KeyCode, writes: &str) {
+    pub(super) fn press(&mut self, key_code: KeyCode, writes: &str) {
         self.key(key_code, writes, ButtonState::Pressed);
         self.key(key_code, writes, ButtonState::Released);
     }
@@ -66,7 +68,7 @@ impl LaidOutWindow {
     }
 
     /// Presses the pointer at one place, moves it to another and lets it go.
-    fn drag(&mut self, from: Pos2, to: Pos2) {
+    pub(super) fn drag(&mut self, from: Pos2, to: Pos2) {
         let pressed = |pos, pressed| Event::PointerButton {
             pos,
             button: PointerButton::Primary,
@@ -84,7 +86,7 @@ impl LaidOutWindow {
         self.frame(SIZE, 1.0);
     }
 
-    fn go_to(&mut self, tick: u64) {
+    pub(super) fn go_to(&mut self, tick: u64) {
         self.app.world_mut().write_message(Action::GoTo(tick));
         self.frame(SIZE, 1.0);
         self.frame(SIZE, 1.0);
@@ -341,29 +343,38 @@ fn another_future_is_shown_as_ghosts_where_it_has_gone_and_goes_on_beside() {
 }
 
 #[test]
-fn a_person_asks_why_a_role_is_doubled_and_plays_on_without_the_loss_that_did_it() {
-    let mut window = LaidOutWindow::scenario("counterexample_02_two_generals_unlocked_at_once:paper");
-    window.play_to(201);
-    let doubled = |window: &mut LaidOutWindow| MatchStanding::of(window.app.world_mut()).doubled;
-    assert_eq!(doubled(&mut window), [(Team::Home, "halfback".to_owned())]);
-    window.press(KeyCode::KeyY, "y");
-    while window.app.world().resource::<AskedWhy>().report.is_none() {
-        window.frame(SIZE, 1.0);
-        std::thread::yield_now();
+fn each_branch_is_recorded_in_a_file_of_its_own_with_its_bookmarks_and_can_be_played_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let mut window = LaidOutWindow::new();
+    window.app.insert_resource(Recording::to(Some(path("mine.replay"))));
+    window
+        .app
+        .insert_resource(PendingMatch(Some(MatchRequest::Match(Choice { seed: 3, ..Choice::default() }))));
+    window.frame(SIZE, 1.0);
+    window.play_to(130);
+    window.go_to(70);
+    window.press(KeyCode::KeyB, "b");
+    window.app.world_mut().resource_mut::<Requests>().ask(Request::Radio(RadioChange::Jam(true)));
+    window.play_to(200);
+    let branch = window.digest();
+    window.app.world_mut().write_message(Action::TakeBranch(BranchId(0)));
+    window.frame(SIZE, 1.0);
+    window.play_to(200);
+    let first = window.digest();
+    window.app.world_mut().write_message(AppExit::Success);
+    window.app.update();
+    for (name, digest) in [("mine.replay", first), ("mine-2.replay", branch)] {
+        let replay = Replay::read(&path(name)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((replay.ticks(), replay.digest()), (200, Some(digest)), "{name}");
+        let (plan, _) = replay.plans().expect("it has all its files");
+        let mut game = Match::new(&plan);
+        (0..200).for_each(|_| game.tick());
+        assert_eq!(game.record().digest, digest, "{name}");
+        assert_eq!(replay.bookmarks().len(), 1, "{name} shares the tick");
     }
-    assert_eq!(window.clock(), 201, "the match stands meanwhile");
-    let frame = window.show(SIZE, 1.0);
-    let line = "If the ACKSWAP from home 3 to home 1, which was lost (fault rule), arrives";
-    let (shown, place) = frame.places.iter().find(|(shown, _)| shown.contains(line)).expect("it is told");
-    assert!(
-        frame.texts.iter().any(|(text, _)| text.contains("no role is given twice; it was home halfback"))
-    );
-    let place = place.center();
-    assert!(shown.starts_with("1."), "at about a second: {shown}");
-    window.drag(place, place);
-    assert_eq!(window.rewind().branches().len(), 2);
-    let name = &window.rewind().branch(window.rewind().present()).name;
-    assert!(name.contains("the ACKSWAP from home 3 to home 1"), "{name}");
-    window.play_to(201);
-    assert_eq!(doubled(&mut window), []);
+    let mut again = LaidOutWindow::with(MatchRequest::Replay(path("mine-2.replay")));
+    again.play_to(200);
+    assert_eq!(again.digest(), branch);
+    assert_eq!(again.rewind().bookmarks(BranchId(0)).collect::<Vec<_>>(), [(70, "A bookmark")]);
 }
