@@ -5,14 +5,15 @@ use std::collections::VecDeque;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::pieces::{Machine, Part, Play, RoleSpec, Strategy};
+use super::pieces::{Machine, Part, Play, RoleSpec, StateRef, Strategy};
 use crate::geometry::Zone;
 
 /// Homebases from which a robot has looked around in vain since it knew the ball last, the latest last.
 pub type Searched = SmallVec<[Vec2; 4]>;
 
 /// What a robot is doing: the role it acts in, the state of that role's machine, and since when.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Reflect)]
+#[reflect(Component)]
 pub struct Activity {
     /// Index into the strategy's roles: the role itself, or the sub-role that the robot acts in.
     pub acting_as: usize,
@@ -31,7 +32,7 @@ pub struct Activity {
 }
 
 /// A transition that was taken.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Reflect)]
 pub struct TransitionTaken {
     /// When it was taken.
     pub tick: u64,
@@ -41,6 +42,19 @@ pub struct TransitionTaken {
     pub to: String,
     /// The feature that fired.
     pub because: String,
+    /// The transition of the strategy that was played then; none where the robot went on in another sub-role.
+    pub transition: Option<TransitionId>,
+}
+
+/// A transition of a strategy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Reflect)]
+pub struct TransitionId {
+    /// The machine's index.
+    pub machine: usize,
+    /// The state that has it.
+    pub of: StateRef,
+    /// Its place among those of the state.
+    pub number: usize,
 }
 
 /// Transitions that are kept for people to see.
@@ -112,12 +126,17 @@ impl Activity {
     }
 
     /// Keeps a transition, and forgets the oldest.
-    pub fn note(&mut self, tick: u64, from: &str, to: &str, because: &str) {
+    pub fn note(&mut self, taken: TransitionTaken) {
         if self.history.len() == HISTORY {
             self.history.pop_front();
         }
-        let (from, to, because) = (from.into(), to.into(), because.into());
-        self.history.push_back(TransitionTaken { tick, from, to, because });
+        self.history.push_back(taken);
+    }
+
+    /// The transitions that were taken in a tick, in their order.
+    pub fn taken_in(&self, tick: u64) -> impl Iterator<Item = &TransitionTaken> {
+        let fresh = self.history.iter().rev().take_while(|taken| taken.tick == tick).count();
+        self.history.iter().skip(self.history.len() - fresh)
     }
 }
 

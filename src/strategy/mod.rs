@@ -25,12 +25,12 @@ use bevy::prelude::*;
 use xxhash_rust::xxh3::Xxh3DefaultBuilder;
 
 use crate::ids::Team;
-pub use activity::{Activity, Searched, TransitionTaken, played};
+pub use activity::{Activity, Searched, TransitionId, TransitionTaken, played};
 pub use desirability::Desirability;
 pub use file::StrategyFile;
 pub use pieces::{
-    Assemblage, Combination, CompositeState, HomebaseRule, Influence, KickOff, Machine, Part, Play, RoleSpec,
-    State, Strategy, SubRole, Term, Transition, Turn,
+    Assemblage, Combination, CompositeState, HomebaseRule, Influence, KickOff, Machine, NamedFeatures, Part,
+    Play, RoleSpec, State, StateRef, Strategy, SubRole, Term, Transition, Turn,
 };
 pub use reading::{StrategyReading, StrategyTexts, TeamworkChange};
 pub use role::{Role, RoleRef};

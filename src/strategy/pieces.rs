@@ -38,6 +38,17 @@ pub struct Strategy {
     pub teamwork: Teamwork,
     /// How many memories its stateful operators need.
     pub slots: usize,
+    /// What its file names under `features`, for people who watch them.
+    pub features: NamedFeatures,
+}
+
+/// Features by their names, with memories that are counted apart from those of the strategy that runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NamedFeatures {
+    /// By name.
+    pub by_name: BTreeMap<String, Feature>,
+    /// How many memories their stateful operators need.
+    pub slots: usize,
 }
 
 /// A role and what it consists of.
@@ -143,6 +154,15 @@ pub struct State {
     pub within: Vec<usize>,
 }
 
+/// A state on any level of a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Reflect)]
+pub enum StateRef {
+    /// The index of a state that a robot can be in.
+    Plain(usize),
+    /// The index of a composite state.
+    Composite(usize),
+}
+
 /// What a standing robot turns to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Turn {
@@ -232,6 +252,34 @@ impl Machine {
         around.chain([state.name.as_str()])
     }
 
+    /// All states: those that hold others first.
+    pub fn all_states(&self) -> impl Iterator<Item = StateRef> {
+        let composites = (0..self.composites.len()).map(StateRef::Composite);
+        composites.chain((0..self.states.len()).map(StateRef::Plain))
+    }
+
+    /// The name of a state.
+    pub fn name_of(&self, state: StateRef) -> &str {
+        match state {
+            StateRef::Plain(index) => &self.states[index].name,
+            StateRef::Composite(index) => &self.composites[index].name,
+        }
+    }
+
+    /// The ways out of a state, in the order in which they are asked.
+    pub fn transitions_of(&self, state: StateRef) -> &[Transition] {
+        match state {
+            StateRef::Plain(index) => &self.states[index].transitions,
+            StateRef::Composite(index) => &self.composites[index].transitions,
+        }
+    }
+
+    /// The state that a transition names: a composite state, or the one in which the robot is then.
+    pub fn target(&self, transition: &Transition) -> StateRef {
+        let inside = self.states[transition.go].within.get(transition.around);
+        inside.map_or(StateRef::Plain(transition.go), |composite| StateRef::Composite(*composite))
+    }
+
     /// A state with the composite states around it, such as `play/strike`, for people.
     pub fn path(&self, state: &State) -> String {
         self.names_of(state).collect::<Vec<_>>().join("/")
@@ -249,6 +297,21 @@ impl Strategy {
             return Err(format!("it has {has} players, and {had} are on the pitch; restart to change that"));
         }
         Ok(())
+    }
+
+    /// A feature by its name in the file, or by the words of the transition that it is the condition of.
+    pub fn feature(&self, name: &str) -> Option<&Feature> {
+        let conditions = self
+            .machines
+            .iter()
+            .flat_map(|machine| machine.all_states().flat_map(|state| machine.transitions_of(state)));
+        let condition = || conditions.into_iter().find(|way| way.label == name).map(|way| &way.when);
+        self.features.by_name.get(name).or_else(condition)
+    }
+
+    /// As many memories as any of its features needs.
+    pub fn most_slots(&self) -> usize {
+        self.slots.max(self.features.slots)
     }
 
     /// A state of a machine.

@@ -22,11 +22,12 @@ use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
 use crate::strategy::Role;
 use crate::strategy::language::Feature;
-use crate::strategy::{Part, Strategies, Strategy};
+use crate::strategy::{Part, StateRef, Strategies, Strategy, TransitionId, TransitionTaken};
 
 /// What this stage remembers of a robot; the memories of operators are of the Motor stage as well.
 pub(crate) fn state(app: &mut App) {
     app.match_component::<Activity>()
+        .reflected()
         .starts(|start: &RobotStart, _| Activity::new(&start.strategy, start.role, 0))
         .on(start_again)
         .on(|activity, on: &SwitchedOn, owner| {
@@ -109,7 +110,8 @@ fn choose_sub_role(
     let machine = &strategy.machines[activity.machine(strategy)];
     activity.enter(machine, machine.find(&before.name).unwrap_or(machine.start), 0, tick);
     let after = format!("{} as {}", machine.states[activity.state].name, strategy.roles[wanted].name);
-    activity.note(tick, &before.name, &after, "sub-role");
+    let (from, because) = (before.name.clone(), "sub-role".into());
+    activity.note(TransitionTaken { tick, from, to: after, because, transition: None });
 }
 
 /// The first choice whose feature holds. All are asked, so that memories do not depend on their order.
@@ -130,18 +132,28 @@ fn take_transition(
     activity: &mut Activity,
     clock: &Clock,
 ) {
-    let machine = &strategy.machines[activity.machine(strategy)];
+    let index = activity.machine(strategy);
+    let machine = &strategy.machines[index];
     let state = &machine.states[activity.state];
     // To an outer state's transitions, the time in the state is the time in the outer one.
     let outer = state.within.iter().zip(&activity.entered).map(|(composite, entered)| {
         let senses = Perception { time_in_state: clock.seconds_since(*entered), ..*senses };
-        (senses, &machine.composites[*composite].transitions)
+        (senses, StateRef::Composite(*composite))
     });
-    let ways = outer.chain([(*senses, &state.transitions)]);
-    let ways = ways.flat_map(|(senses, ways)| ways.iter().map(move |way| (senses, &way.when, way)));
-    let Some(transition) = first_that_holds(ways, memory) else { return };
+    let levels = outer.chain([(*senses, StateRef::Plain(activity.state))]);
+    let ways = levels.flat_map(|(senses, of)| {
+        let ways = machine.transitions_of(of).iter().enumerate();
+        ways.map(move |(number, way)| (senses, &way.when, (way, TransitionId { machine: index, of, number })))
+    });
+    let Some((transition, id)) = first_that_holds(ways, memory) else { return };
     let next = &machine.states[transition.go];
     let shared = state.within.iter().zip(&next.within).take_while(|(old, new)| old == new).count();
     activity.enter(machine, transition.go, shared.min(transition.around), clock.tick);
-    activity.note(clock.tick, &state.name, &next.name, &transition.label);
+    activity.note(TransitionTaken {
+        tick: clock.tick,
+        from: state.name.clone(),
+        to: next.name.clone(),
+        because: transition.label.clone(),
+        transition: Some(id),
+    });
 }

@@ -15,7 +15,7 @@ use bevy::prelude::Vec2;
 
 use super::file::StrategyFile;
 use super::language::Feature;
-use super::pieces::{Strategy, stretched};
+use super::pieces::{NamedFeatures, Strategy, stretched};
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
 use crate::geometry::Zone;
 pub(super) use teamwork::Roles;
@@ -30,7 +30,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
     let mut resolver = Resolver { file, source, roles, scale, slots: 0, open: Vec::new(), depth: 0, work: 0 };
     resolver.check_sizes()?;
     source.distinct(&root.key("robot_kinds"), &file.robot_kinds)?;
-    resolver.check_named_pieces()?;
+    let features = resolver.check_named_pieces()?;
     let assemblages = (file.assemblages.iter())
         .map(|(name, assemblage)| resolver.assemblage(name, assemblage, &root.key("assemblages").key(name)))
         .collect::<Resolved<Vec<_>>>()?;
@@ -59,6 +59,7 @@ pub(super) fn resolve(file: &StrategyFile, source: &Source, pitch: Option<Vec2>)
         assemblages,
         teamwork: resolver.roles.teamwork(&file.teamwork, &root.key("teamwork"))?,
         slots: resolver.slots,
+        features,
     })
 }
 
@@ -153,8 +154,8 @@ impl Resolver<'_> {
         Ok(())
     }
 
-    /// Checks what is named but perhaps never used.
-    fn check_named_pieces(&mut self) -> Resolved<()> {
+    /// Checks what is named but perhaps never used; returns the features.
+    fn check_named_pieces(&mut self) -> Resolved<NamedFeatures> {
         let (file, root) = (self.file, Field::root());
         for (name, zone) in &file.zones {
             self.sound_zone(*zone, &root.key("zones").key(name))?;
@@ -165,14 +166,16 @@ impl Resolver<'_> {
         for (name, points) in &file.point_sets {
             self.points(&mut points.clone(), &root.key("point_sets").key(name))?;
         }
+        let mut features = NamedFeatures::default();
         for (name, feature) in &file.features {
-            self.feature(&mut feature.clone(), &root.key("features").key(name))?;
+            let resolved = self.resolved_feature(feature, &root.key("features").key(name))?;
+            features.by_name.insert(name.clone(), resolved);
         }
         for (name, schema) in &file.schemas {
             self.schema(&mut schema.clone(), &root.key("schemas").key(name))?;
         }
-        self.slots = 0;
-        Ok(())
+        features.slots = std::mem::take(&mut self.slots);
+        Ok(features)
     }
 
     /// What a name stands for, with the names in it replaced in turn; a name that is defined by itself is a fault.

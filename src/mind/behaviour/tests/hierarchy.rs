@@ -42,6 +42,23 @@ fn a_transition_of_an_outer_state_is_taken_from_every_state_in_it_and_before_tha
 }
 
 #[test]
+fn a_transition_that_was_taken_is_known_by_the_level_of_its_state_and_its_place_there() {
+    let mut bench = player();
+    bench.decide(3, here().ball(1.0, 0.0));
+    bench.decide(6, here().ball(1.0, 0.0));
+    let activity = bench.decide(9, here());
+    let ids: Vec<_> = activity.history.iter().filter_map(|taken| taken.transition).collect();
+    let id = |of, number| TransitionId { machine: 0, of, number };
+    let machine = &bench.strategy.machines[0];
+    let plain = |name| StateRef::Plain(machine.find(name).expect("the state exists"));
+    assert_eq!(ids, [id(plain("rest"), 0), id(plain("near"), 0), id(StateRef::Composite(0), 0)]);
+    let targets = ids.iter().map(|id| machine.target(&machine.transitions_of(id.of)[id.number]));
+    assert_eq!(targets.collect::<Vec<_>>(), [StateRef::Composite(0), plain("far"), plain("rest")]);
+    assert_eq!(activity.taken_in(9).count(), 1);
+    assert_eq!(activity.taken_in(10).count(), 0);
+}
+
+#[test]
 fn the_time_in_an_outer_state_goes_on_from_one_state_in_it_to_the_next() {
     let mut bench = player();
     let mut states = Vec::new();
