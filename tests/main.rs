@@ -8,6 +8,7 @@ mod booking;
 mod command_line;
 mod contact_cost;
 mod corpus;
+mod coverage;
 mod docs;
 mod duel;
 mod fairness;

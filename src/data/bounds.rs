@@ -75,6 +75,8 @@ impl Bound {
     pub const WEIGHT: Bound = Bound::FACTOR.signed();
     /// A number of bytes.
     pub const BYTES: Bound = Bound::up_to(1e9, " bytes");
+    /// How often something happened, or for how many seconds in all.
+    pub const COUNT: Bound = Bound::up_to(1e15, "");
     /// On a screen.
     pub const POINTS: Bound = Bound::up_to(100_000.0, " points");
 

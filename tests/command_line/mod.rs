@@ -1,5 +1,6 @@
 //! The program as a person or a script calls it.
 
+mod coverage;
 mod duel;
 mod fit_eyes;
 #[cfg(unix)]

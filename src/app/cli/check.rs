@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -13,6 +13,7 @@ use super::kinds;
 use super::recording::RunRecorder;
 use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, AssetKind, DataError, Field};
+use crate::lab::coverage::{Coverage, CoverageWatcher};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef, ScenarioReport, junit};
 
 #[derive(Args, Debug, Default)]
@@ -29,6 +30,10 @@ pub(super) struct CheckCommand {
     /// Record each run of a scenario in a file of its own in this folder, from which `replay` plays it again.
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
+    /// Count how often the scenarios' robots are in each state of their strategies and take each transition, and print a table;
+    /// with a file, also write all counts to it, as RON.
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    coverage: Option<Option<PathBuf>>,
 }
 
 /// What was found so far, printed as it is found.
@@ -41,12 +46,17 @@ struct Findings<'a, W> {
     /// The scenarios' names, and whose they are.
     scenarios: BTreeMap<String, ScenarioRef>,
     reports: Vec<ScenarioReport>,
+    /// What the robots did in all scenarios that were played whole, if that is counted.
+    coverage: Option<Coverage>,
 }
 
 impl CheckCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(path) = &self.junit {
             check_writable(path).map_err(CommandError::file(path))?;
+        }
+        if let Some(path) = self.coverage_file() {
+            check_replaceable(path)?;
         }
         let mut findings = Findings {
             out,
@@ -55,6 +65,7 @@ impl CheckCommand {
             faults: 0,
             scenarios: BTreeMap::new(),
             reports: Vec::new(),
+            coverage: self.coverage.as_ref().map(|_| Coverage::default()),
         };
         if self.files.is_empty() {
             self.check_all(assets, &mut findings)?;
@@ -73,7 +84,21 @@ impl CheckCommand {
             let xml = junit(&findings.reports).map_err(io::Error::other);
             xml.and_then(|xml| write_whole(path, xml.as_bytes())).map_err(CommandError::file(path))?;
         }
+        if let Some(coverage) = &findings.coverage {
+            writeln!(findings.out, "{coverage}")?;
+            if let Some(path) = self.coverage_file() {
+                let written = coverage.to_ron().map_err(io::Error::other);
+                written
+                    .and_then(|text| write_whole(path, text.as_bytes()))
+                    .map_err(CommandError::file(path))?;
+            }
+        }
         Ok(findings.conclude()?)
+    }
+
+    /// Where the counts go.
+    fn coverage_file(&self) -> Option<&Path> {
+        self.coverage.as_ref()?.as_deref()
     }
 
     /// Checks what is in each kind's folder as that kind, which is what it is taken for in a match.
@@ -130,13 +155,25 @@ impl CheckCommand {
                     plan,
                     without,
                 };
-                let report = plan.run_watched(without, &mut recorder);
+                let coverage = findings.coverage.as_mut().filter(|_| without.is_none());
+                let mut counter = CoverageWatcher::new(plan, coverage);
+                let report = plan.run_watched(without, &mut (&mut recorder, &mut counter));
                 recorder.conclude()?;
                 findings.report(report)?;
             }
         }
         Ok(())
     }
+}
+
+/// Refuses to replace a file that is no table of coverage: it may be one that was to be checked.
+fn check_replaceable(path: &Path) -> Result<(), CommandError> {
+    if path.is_file() && Coverage::read(path).is_err() {
+        let message = "is there already and is no table of coverage, so it is not replaced; what is to be checked comes \
+                       before `--coverage`";
+        return Err(DataError::new(path, message).into());
+    }
+    check_writable(path).map_err(CommandError::file(path))
 }
 
 impl<W: Write> Findings<'_, W> {

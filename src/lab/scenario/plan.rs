@@ -208,6 +208,11 @@ impl ScenarioPlan {
         plan
     }
 
+    /// The names of the files of both teams' strategies.
+    pub fn strategy_names(&self) -> [String; 2] {
+        self.match_plan.teams.each_ref().map(|team| team.names.strategy.clone())
+    }
+
     /// The same scenario without what it is said to depend on, in all teams.
     pub fn without(&self, dependency: Dependency) -> ScenarioPlan {
         let mut plan = self.clone();

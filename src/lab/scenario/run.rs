@@ -31,9 +31,33 @@ pub trait RunWatcher {
     fn begin(&mut self, _run: (Vec2, u64), _game: &mut Match) {}
     /// A tick was played.
     fn after_tick(&mut self, _game: &mut Match) {}
+    /// The run is decided, or its time is over.
+    fn end(&mut self) {}
     /// Whether to stop.
     fn stops(&self) -> bool {
         false
+    }
+}
+
+/// Two that look on.
+impl<A: RunWatcher, B: RunWatcher> RunWatcher for (&mut A, &mut B) {
+    fn begin(&mut self, run: (Vec2, u64), game: &mut Match) {
+        self.0.begin(run, game);
+        self.1.begin(run, game);
+    }
+
+    fn after_tick(&mut self, game: &mut Match) {
+        self.0.after_tick(game);
+        self.1.after_tick(game);
+    }
+
+    fn end(&mut self) {
+        self.0.end();
+        self.1.end();
+    }
+
+    fn stops(&self) -> bool {
+        self.0.stops() || self.1.stops()
     }
 }
 
@@ -92,6 +116,7 @@ impl ScenarioPlan {
                 break;
             }
         }
+        watcher.end();
         Some(judge.verdict())
     }
 }
