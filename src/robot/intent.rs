@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Where a robot wants to go. Headings are in the odometry's frame, so that the drive can follow them between decisions.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
 #[expect(missing_docs, reason = "each variant says what its fields are")]
 pub enum SteeringIntent {
     /// Stand still.
@@ -43,7 +43,7 @@ pub enum KickIntent {
 }
 
 /// Where a head should look, rad to the left of the body's heading; written by the Motor stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
 pub struct HeadIntent {
     /// rad, counter-clockwise from straight ahead.
     pub pan: f32,
@@ -59,7 +59,7 @@ impl HeadIntent {
 }
 
 /// Where a head looks; always straight ahead without a neck. Written by the Drive stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 pub struct Head {
     /// rad to the left of the body's heading
     pub pan: f32,

@@ -64,13 +64,15 @@ pub(crate) fn plugin(app: &mut App) {
     app.match_component::<Odometry>()
         .starts(|start: &RobotStart, _| Odometry::new(start.seed, start.id))
         .on(|odometry, stirred: &DiceStirred, _| odometry.stir(*stirred));
+    app.register_type::<RobotId>();
     app.match_component::<SteeringIntent>()
+        .reflected()
         .starts(|_: &RobotStart, _| SteeringIntent::Stop)
         .on(|intent, _: &PutDown, _| *intent = SteeringIntent::Stop)
         .on(|intent, _: &SwitchedOff, _| *intent = SteeringIntent::Stop);
-    app.match_component::<KickIntent>().starts(|_: &RobotStart, _| KickIntent::Nothing);
+    app.match_component::<KickIntent>().reflected().starts(|_: &RobotStart, _| KickIntent::Nothing);
     app.match_component::<HeadIntent>().starts(|_: &RobotStart, _| HeadIntent::default());
-    app.match_component::<Head>().starts(|_: &RobotStart, _| Head::default());
+    app.match_component::<Head>().reflected().starts(|_: &RobotStart, _| Head::default());
     app.match_component::<DriveCommand>()
         .starts(|start: &RobotStart, _| DriveCommand::idle(&start.kind))
         .on(DriveCommand::stop);

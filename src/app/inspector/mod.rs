@@ -3,8 +3,11 @@
 //! It reads the simulation and changes it by requests only. Files without `bevy::ecs` are pure: matching,
 //! outlines, calibration.
 
+pub(in crate::app) mod breakpoints;
 mod calibration;
+mod chart;
 mod communication;
+mod entity_names;
 mod low_panel;
 mod matching;
 mod numbers;
@@ -28,10 +31,6 @@ use bevy::prelude::*;
 
 /// Adds the panels, the overlays and the view of the world to a window.
 pub fn plugin(app: &mut App) {
-    app.add_plugins((panels, world_view::plugin));
-}
-
-/// All but the view of the world, which wants a renderer.
-pub(crate) fn panels(app: &mut App) {
-    app.add_plugins((panel::plugin, overlays::plugin, radio::plugin, communication::plugin, vision::plugin));
+    app.add_plugins((panel::plugin, overlays::plugin, radio::plugin, communication::plugin, vision::plugin))
+        .add_plugins((breakpoints::plugin, chart::plugin, world_view::plugin));
 }

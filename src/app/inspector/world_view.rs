@@ -1,4 +1,5 @@
-//! The whole world, entity by entity, in a floating window behind key F12: bevy-inspector-egui's own view of it.
+//! The whole world, entity by entity and each by its name, in a floating window behind key F12, with bevy-inspector-egui's view of
+//! their components. What of the match cannot be looked at field by field is told as text.
 //!
 //! It is there to look. What is edited there happens outside any tick, so it is no part of what makes a match repeatable.
 
@@ -6,16 +7,20 @@ use bevy::prelude::*;
 use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
+use super::entity_names::{NamedEntity, named_entities};
 use crate::app::view::state::{Inspector, PanelSystems};
-use crate::ids::MatchEntity;
-use crate::state::StateRegister;
+use crate::state::{StateKind, StateRegister};
 
 pub(super) fn plugin(app: &mut App) {
-    app.add_plugins(DefaultInspectorConfigPlugin).add_systems(
+    app.add_plugins(DefaultInspectorConfigPlugin).init_resource::<WorldSearch>().add_systems(
         EguiPrimaryContextPass,
         show_world.in_set(PanelSystems::Floating).run_if(|inspector: Res<Inspector>| inspector.world),
     );
 }
+
+/// What a person looks for among the entities.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+struct WorldSearch(String);
 
 fn show_world(world: &mut World) -> Result {
     let mut contexts = world.query_filtered::<&EguiContext, With<PrimaryEguiContext>>();
@@ -25,11 +30,15 @@ fn show_world(world: &mut World) -> Result {
         context.get_mut(),
         |ui| {
             ui.weak("To look at. A match with values changed here cannot be repeated.");
-            ui.separator();
-            egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-                show_match(world, ui);
-                bevy_inspector::ui_for_world(world, ui);
+            let mut search = world.resource::<WorldSearch>().0.clone();
+            ui.horizontal(|ui| {
+                ui.label("Find");
+                ui.text_edit_singleline(&mut search)
+                    .on_hover_text("A part of a name, such as LOCK or home 1");
             });
+            ui.separator();
+            egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| show_all(world, &search, ui));
+            world.resource_mut::<WorldSearch>().0 = search;
         },
     );
     if let Some(mut inspector) = world.get_resource_mut::<Inspector>().filter(|_| !open) {
@@ -38,23 +47,42 @@ fn show_world(world: &mut World) -> Result {
     Ok(())
 }
 
-/// Everything that is registered as state of the match, by its resources and bodies.
-fn show_match(world: &mut World, ui: &mut egui::Ui) {
+/// The entities of the match and of the window, then resources and assets.
+fn show_all(world: &mut World, search: &str, ui: &mut egui::Ui) {
     let kinds = world.resource::<StateRegister>().kinds().to_vec();
-    let mut bodies: Vec<(String, Entity)> = (world.query_filtered::<(Entity, &Name), With<MatchEntity>>())
-        .iter(world)
-        .map(|(entity, name)| (name.to_string(), entity))
-        .collect();
-    bodies.sort();
-    let show_kinds = |entity: Option<Entity>, ui: &mut egui::Ui| {
-        for (kind, text) in kinds.iter().filter_map(|kind| Some((kind, kind.tell(world, entity)?))) {
+    let found = |named: &NamedEntity| named.name.to_lowercase().contains(&search.trim().to_lowercase());
+    let all: Vec<NamedEntity> = named_entities(world).into_iter().filter(found).collect();
+    for (title, of_match) in [("Match", true), ("Window", false)] {
+        let entities: Vec<&NamedEntity> = all.iter().filter(|named| named.of_match == of_match).collect();
+        let header =
+            egui::CollapsingHeader::new(format!("{title}: {} entities", entities.len())).id_salt(title);
+        header.default_open(of_match).show(ui, |ui| {
+            for named in entities {
+                let header = egui::CollapsingHeader::new(&named.name).id_salt(named.entity);
+                header.show(ui, |ui| {
+                    bevy_inspector::ui_for_entity_with_children(world, named.entity, ui);
+                    if of_match {
+                        show_told(&kinds, world, Some(named.entity), ui);
+                    }
+                });
+            }
+        });
+    }
+    ui.collapsing("Resources of the match", |ui| show_told(&kinds, world, None, ui));
+    ui.collapsing("Resources", |ui| bevy_inspector::ui_for_resources(world, ui));
+    ui.collapsing("Assets", |ui| bevy_inspector::ui_for_all_assets(world, ui));
+}
+
+/// What an entity or the world has of the registered state of the match and cannot be looked at field by field, as text.
+fn show_told(kinds: &[StateKind], world: &World, entity: Option<Entity>, ui: &mut egui::Ui) {
+    let types = world.resource::<AppTypeRegistry>().read();
+    let is_reflected = |kind: &StateKind| {
+        let id = world.components().get_info(kind.id).and_then(|info| info.type_id());
+        id.is_some_and(|id| types.get(id).is_some())
+    };
+    for kind in kinds.iter().filter(|kind| !is_reflected(kind)) {
+        if let Some(text) = kind.tell(world, entity) {
             ui.collapsing(kind.name, |ui| ui.monospace(text));
         }
-    };
-    ui.collapsing("Match", |ui| {
-        ui.collapsing("resources", |ui| show_kinds(None, ui));
-        for (name, entity) in &bodies {
-            ui.collapsing(name, |ui| show_kinds(Some(*entity), ui));
-        }
-    });
+    }
 }

@@ -64,6 +64,8 @@ pub const GOOD: Color = rgb(0x6F_D8_8C);
 pub const TROUBLE: Color = rgb(0x9E_2A_2B);
 /// A robot that is off the pitch.
 pub const PENALTY: Color = rgb(0xFF_6B_5E);
+/// Where a match is to stop, or has stopped.
+pub const BREAKPOINT: Color = PENALTY;
 /// Behind what is typed or slid on panels.
 pub const SUNKEN: Color = rgb(0x12_17_14);
 /// Panels.
@@ -115,6 +117,20 @@ pub const fn class(class: ColourClass) -> Color {
     }
 }
 
+/// What never happened.
+pub const NEVER: Color = LOST;
+
+/// How often something happened, from 0 for seldom to 1 for most often: cold blue to hot orange.
+pub fn heat(share: f32) -> Color {
+    let (cold, hot) = (Oklcha::from(rgb(0x3F_7F_C4)), Oklcha::from(rgb(0xFF_8A_3C)));
+    // By way of magenta, which no team wears, as on a chart of temperatures.
+    let share = share.clamp(0.0, 1.0);
+    let hue = cold.hue + share * (hot.hue + 360.0 - cold.hue);
+    let mixed = |of: fn(Oklcha) -> f32| of(cold) + share * (of(hot) - of(cold));
+    Oklcha::new(mixed(|colour| colour.lightness), mixed(|colour| colour.chroma), hue.rem_euclid(360.0), 1.0)
+        .into()
+}
+
 /// The colour of a robot's number among its team mates, where it tells who has booked the ball.
 pub fn number(number: u8) -> Color {
     const COLOURS: [u32; 8] =
@@ -142,6 +158,13 @@ mod tests {
     fn the_teams_differ_in_lightness_as_well() {
         let lightness = |of: Team| Oklcha::from(team(of)).lightness;
         assert!(lightness(Team::Away) - lightness(Team::Home) > 0.08);
+    }
+
+    #[test]
+    fn what_happened_more_often_is_lighter_and_warmer() {
+        let at = |share| Oklcha::from(heat(share));
+        assert!(at(0.0).lightness < at(0.5).lightness && at(0.5).lightness < at(1.0).lightness);
+        assert!(Srgba::from(heat(0.0)).blue > 0.7 && Srgba::from(heat(1.0)).red > 0.95);
     }
 
     #[test]

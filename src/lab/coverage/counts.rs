@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::table::Coverage;
+use super::table::{Coverage, MachineCoverage, StateCoverage, StrategyCoverage, TransitionCoverage};
 use crate::clock::Clock;
 use crate::ids::{RobotId, Team};
 use crate::robot::OffPitch;
-use crate::strategy::{Activity, StateRef, Strategies, Strategy, TransitionId};
+use crate::strategy::{Activity, Machine, StateRef, Strategies, Strategy, TransitionId};
 
 /// What is counted of one match.
 pub struct MatchCoverage {
@@ -22,24 +22,24 @@ pub struct MatchCoverage {
 }
 
 /// What is counted of one team, since it has its strategy.
-pub(super) struct TeamCounts {
+struct TeamCounts {
     /// The name of the strategy's file.
-    pub name: String,
-    pub strategy: Arc<Strategy>,
+    name: String,
+    strategy: Arc<Strategy>,
     /// Whether a robot of the team was on the pitch.
-    pub plays: bool,
+    plays: bool,
     /// By machine and state.
-    pub states: BTreeMap<(usize, StateRef), StateCount>,
-    pub taken: BTreeMap<TransitionId, u64>,
+    states: BTreeMap<(usize, StateRef), StateCount>,
+    taken: BTreeMap<TransitionId, u64>,
     /// The length of a tick, s.
-    pub dt: f32,
+    dt: f32,
 }
 
 /// How often a state was entered, and for how many ticks robots were in it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct StateCount {
-    pub entered: u64,
-    pub ticks: u64,
+struct StateCount {
+    entered: u64,
+    ticks: u64,
 }
 
 impl MatchCoverage {
@@ -78,7 +78,7 @@ impl MatchCoverage {
                 if old.strategy.machines == now.machines {
                     (counts.states, counts.taken) = (old.states, old.taken);
                 } else {
-                    self.before.add_team(&old, false);
+                    self.before.add(&old.coverage(false));
                 }
             }
         }
@@ -87,7 +87,7 @@ impl MatchCoverage {
     /// All that was counted.
     pub fn sum(&self) -> Coverage {
         let mut sum = self.before.clone();
-        self.teams.iter().filter(|team| team.plays).for_each(|team| sum.add_team(team, true));
+        self.teams.iter().filter(|team| team.plays).for_each(|team| sum.add(&team.coverage(true)));
         sum
     }
 }
@@ -111,5 +111,35 @@ impl TeamCounts {
         for id in activity.taken_in(tick).filter_map(|taken| taken.transition) {
             *self.taken.entry(id).or_default() += 1;
         }
+    }
+    /// What was counted; also that the team has played, if it has come to its last strategy.
+    fn coverage(&self, is_last: bool) -> Coverage {
+        let machines = self.strategy.machines.iter().enumerate();
+        let machines = machines.map(|(index, machine)| (machine.name.clone(), self.counted(index, machine)));
+        let counted = StrategyCoverage { played: u64::from(is_last), machines: machines.collect() };
+        Coverage { strategies: BTreeMap::from([(self.name.clone(), counted)]) }
+    }
+
+    fn counted(&self, index: usize, machine: &Machine) -> MachineCoverage {
+        let states = machine.all_states().map(|of| {
+            let count = self.states.get(&(index, of)).copied().unwrap_or_default();
+            let ways =
+                machine.transitions_of(of).iter().enumerate().map(|(number, way)| TransitionCoverage {
+                    when: way.label.clone(),
+                    go: machine.name_of(machine.target(way)).to_owned(),
+                    taken: self
+                        .taken
+                        .get(&TransitionId { machine: index, of, number })
+                        .copied()
+                        .unwrap_or_default(),
+                });
+            let state = StateCoverage {
+                entered: count.entered,
+                seconds: count.ticks as f64 * f64::from(self.dt),
+                transitions: ways.collect(),
+            };
+            (machine.name_of(of).to_owned(), state)
+        });
+        MachineCoverage { states: states.collect() }
     }
 }

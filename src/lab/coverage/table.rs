@@ -6,9 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::counts::TeamCounts;
 use crate::data::{Bound, DataError, Fault, Source, Validate};
-use crate::strategy::{Machine, TransitionId};
 
 /// How often the robots of some matches were in each state and took each transition, by the names of their strategies' files.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -93,35 +91,10 @@ impl Coverage {
         }
     }
 
-    pub(super) fn add_team(&mut self, team: &TeamCounts, is_last: bool) {
-        let machines = team.strategy.machines.iter().enumerate();
-        let machines = machines.map(|(index, machine)| (machine.name.clone(), counted(team, index, machine)));
-        let counted = StrategyCoverage { played: u64::from(is_last), machines: machines.collect() };
-        self.add(&Coverage { strategies: BTreeMap::from([(team.name.clone(), counted)]) });
-    }
-
     /// What was counted of a machine.
     pub fn machine(&self, strategy: &str, machine: &str) -> Option<&MachineCoverage> {
         self.strategies.get(strategy)?.machines.get(machine)
     }
-}
-
-fn counted(team: &TeamCounts, index: usize, machine: &Machine) -> MachineCoverage {
-    let states = machine.all_states().map(|of| {
-        let count = team.states.get(&(index, of)).copied().unwrap_or_default();
-        let ways = machine.transitions_of(of).iter().enumerate().map(|(number, way)| TransitionCoverage {
-            when: way.label.clone(),
-            go: machine.name_of(machine.target(way)).to_owned(),
-            taken: team.taken.get(&TransitionId { machine: index, of, number }).copied().unwrap_or_default(),
-        });
-        let state = StateCoverage {
-            entered: count.entered,
-            seconds: count.ticks as f64 * f64::from(team.dt),
-            transitions: ways.collect(),
-        };
-        (machine.name_of(of).to_owned(), state)
-    });
-    MachineCoverage { states: states.collect() }
 }
 
 impl StateCoverage {

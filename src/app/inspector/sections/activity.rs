@@ -27,12 +27,12 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot) {
     }
     for taken in activity.history.iter().rev().take(SHOWN) {
         let ago = format::seconds(robot.since(taken.tick));
-        table::line(ui, &format!("{ago} ago"), transition(ui, taken));
+        table::line(ui, &format!("{ago} ago"), transition_in_words(ui, taken));
     }
 }
 
 /// A transition in words. A change of sub-role that keeps the state says so by its end alone.
-fn transition(ui: &egui::Ui, taken: &TransitionTaken) -> egui::text::LayoutJob {
+pub fn transition_in_words(ui: &egui::Ui, taken: &TransitionTaken) -> egui::text::LayoutJob {
     let font = egui::TextStyle::Body.resolve(ui.style());
     let mut text = egui::text::LayoutJob::default();
     let mut say = |words: &str, colour| {

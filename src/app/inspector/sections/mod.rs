@@ -10,6 +10,7 @@ mod panel_actions;
 mod percepts;
 mod teleoperation;
 
+pub use activity::transition_in_words;
 use bevy_egui::egui;
 pub use panel_actions::PanelActions;
 pub use teleoperation::TeleoperatedBody;

@@ -40,7 +40,7 @@ const MARGIN: egui::Margin = egui::Margin { left: 12, right: 12, top: 7, bottom:
 /// Height of a button, in points.
 const BUTTON: f32 = 26.0;
 /// Room beside the names of overlays, in points.
-const NARROW: f32 = 5.0;
+const NARROW: f32 = 3.0;
 
 /// What the bar shows besides the time line.
 #[derive(SystemParam)]
@@ -102,7 +102,7 @@ impl Controls<'_> {
             self.show_seat(ui, 140.0);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 self.button(ui, "Menu", 52.0, Action::Leave);
-                self.button(ui, "? Keys", 60.0, Action::Help);
+                self.button(ui, "?", 28.0, Action::Help);
                 ui.separator();
                 ui.spacing_mut().button_padding.x = NARROW;
                 for overlay in Overlay::ALL.into_iter().rev() {

@@ -57,18 +57,21 @@ impl WindowSettings {
         }
         Ok(Some(settings))
     }
+}
 
-    /// Puts a new file into the place of the old one, so that there is always a whole one.
-    fn write(&self, path: &Path) -> std::io::Result<()> {
-        let text = ron::ser::to_string_pretty(self, ron::ser::PrettyConfig::default())
-            .map_err(std::io::Error::other)?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder)?;
-        }
-        let fresh = path.with_extension("ron.new");
-        std::fs::write(&fresh, text + "\n")?;
-        std::fs::rename(fresh, path)
+/// Keeps something for the next run: puts a new file into the place of the old one, so that there is always a whole one.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn keep(path: &Path, what: &impl Serialize) -> std::io::Result<()> {
+    let text =
+        ron::ser::to_string_pretty(what, ron::ser::PrettyConfig::default()).map_err(std::io::Error::other)?;
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
     }
+    let fresh = path.with_extension("ron.new");
+    std::fs::write(&fresh, text + "\n")?;
+    std::fs::rename(fresh, path)
 }
 
 /// What the file says now, as far as is known.
@@ -103,7 +106,7 @@ fn save(
         return;
     }
     saved.0 = settings;
-    if let Err(error) = settings.write(&file.0) {
+    if let Err(error) = keep(&file.0, &settings) {
         error!("{}: what is open cannot be remembered: {error}", file.0.display());
     }
 }

@@ -6,7 +6,9 @@ use egui::{Align2, Color32, FontId, pos2, vec2};
 
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::format;
-use crate::app::view::state::{Announcement, FileError, FreeArea, PanelSystems, Playback, Screen, Session};
+use crate::app::view::state::{
+    Announcement, FileError, FreeArea, PanelSystems, Playback, Screen, Session, StopReason,
+};
 use crate::app::view::style::{font, panel_frame};
 use crate::geometry::Attacking;
 use crate::ids::Team;
@@ -46,6 +48,7 @@ fn show_top_bar(
     mut area: ResMut<FreeArea>,
     (state, strategies): (Res<MatchState>, Res<Strategies>),
     (announcement, playback, session): (Res<Announcement>, Res<Playback>, Res<Session>),
+    stop: Res<StopReason>,
 ) -> Result {
     if area.0.height() < LEAST_WINDOW {
         return Ok(());
@@ -79,9 +82,11 @@ fn show_top_bar(
         let clock = one_line(ui, &clock, 16.0, room);
         let at = Align2::RIGHT_CENTER.anchor_size(pos2(middle - 14.0, second), clock.size()).min;
         painter.galley(at, clock, paint(colours::TEXT));
-        let (text, colour) = match announcement.text() {
-            Some(announcement) => (announcement, colours::CALL),
-            None => (phase_text(&state, playback.paused), colours::QUIET),
+        let stopped = stop.0.as_ref().map(|reason| format!("Stopped: {reason}"));
+        let (text, colour) = match (&stopped, announcement.text()) {
+            (Some(stopped), _) => (stopped.as_str(), colours::BREAKPOINT),
+            (None, Some(announcement)) => (announcement, colours::CALL),
+            (None, None) => (phase_text(&state, playback.paused), colours::QUIET),
         };
         let text = one_line(ui, text, 16.0, room);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(middle + 14.0, second), text.size()).min;

@@ -17,7 +17,7 @@ use crate::ids::RobotId;
 
 pub use actions::Action;
 pub use layout::{Edge, FreeArea, PITCH, PanelSystems, nearest_within};
-pub use news::{Announcement, FileError};
+pub use news::{Announcement, FileError, StopReason};
 pub use overlays::{Overlay, Overlays, Press, shows};
 pub use panels::{Inspector, OpenDialogues, OpenPanels, PanelSizes, Question, RememberedPanels};
 pub use playback::Playback;
@@ -33,6 +33,7 @@ pub(super) fn plugin(app: &mut App) {
         .init_resource::<OpenDialogues>()
         .init_resource::<Announcement>()
         .init_resource::<FileError>()
+        .init_resource::<StopReason>()
         .init_resource::<PendingMatch>()
         .init_resource::<Beside>()
         .init_resource::<Session>()

@@ -41,6 +41,10 @@ const SHOWN: f32 = 3.0;
 /// Weight of the news that a file was taken over.
 const NEWS: u8 = 2;
 
+/// Why the match was stopped, in words, while it stands where it was.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct StopReason(pub Option<String>);
+
 /// What went wrong with a file, in one line.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileError(pub Option<String>);

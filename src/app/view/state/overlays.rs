@@ -55,13 +55,14 @@ overlays! {
     Teamwork      Digit6 "Teamwork" "Teamwork: claims, supports, locks and messages";
     Radio         KeyM   "Radio"    "The radio: messages, bookings, interference";
     Communication KeyN   "Comms"    "Team communication, and the referee box";
+    States        KeyG   "States"   "The state machine of the selected robot: where it is, how it came there, when it goes on";
     Camera        KeyV   "Camera"   "The camera of the selected robot, and its calibration";
 }
 
 impl Overlay {
     /// Whether it is a panel below the pitch, where there is room for one.
     fn is_panel(self) -> bool {
-        matches!(self, Overlay::Radio | Overlay::Communication | Overlay::Camera)
+        matches!(self, Overlay::Radio | Overlay::Communication | Overlay::States | Overlay::Camera)
     }
 }
 

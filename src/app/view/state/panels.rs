@@ -119,14 +119,19 @@ pub struct PanelSizes {
     /// Its height.
     pub communication: f32,
     /// Its height.
+    pub states: f32,
+    /// Its height.
     pub camera: f32,
 }
 
 impl PanelSizes {
     /// Each with its name in the file of settings.
-    pub fn each(&mut self) -> [(&'static str, &mut f32); 4] {
-        let PanelSizes { inspector, radio, communication, camera } = self;
-        [("inspector", inspector), ("radio", radio), ("communication", communication), ("camera", camera)]
+    pub fn each(&mut self) -> [(&'static str, &mut f32); 5] {
+        let PanelSizes { inspector, radio, communication, states, camera } = self;
+        let below =
+            [("radio", radio), ("communication", communication), ("states", states), ("camera", camera)];
+        let [radio, communication, states, camera] = below;
+        [("inspector", inspector), radio, communication, states, camera]
     }
 
     /// The height of a panel below the pitch.
@@ -134,6 +139,7 @@ impl PanelSizes {
         match panel {
             Overlay::Communication => &mut self.communication,
             Overlay::Camera => &mut self.camera,
+            Overlay::States => &mut self.states,
             _ => &mut self.radio,
         }
     }
@@ -141,7 +147,7 @@ impl PanelSizes {
 
 impl Default for PanelSizes {
     fn default() -> PanelSizes {
-        PanelSizes { inspector: 400.0, radio: 246.0, communication: 246.0, camera: 340.0 }
+        PanelSizes { inspector: 400.0, radio: 246.0, communication: 246.0, states: 360.0, camera: 340.0 }
     }
 }
 

@@ -56,6 +56,14 @@ impl Playback {
     }
 }
 
+impl Playback {
+    /// Stops after the tick of `dt` seconds that has just been run: the picture shows it.
+    pub fn stop(&mut self, dt: f32) {
+        (self.paused, self.single_ticks) = (true, 0);
+        (self.owed, self.between) = (dt * JUST_BEFORE, 1.0);
+    }
+}
+
 /// The longest time of one frame that counts, s: after a longer one the match has simply stood still.
 const LONGEST_FRAME: f32 = 0.1;
 
@@ -107,6 +115,14 @@ mod tests {
         playback.paused = false;
         playback.take_ticks(0.0, DT);
         assert!(playback.between > 0.99, "the picture does not jump back: {}", playback.between);
+    }
+
+    #[test]
+    fn what_is_stopped_shows_its_last_tick_and_owes_none() {
+        let mut playback = Playback { single_ticks: 3, ..Playback::default() };
+        playback.take_ticks(0.04, DT);
+        playback.stop(DT);
+        assert_eq!((playback.take_ticks(0.1, DT), playback.between), (0, 1.0));
     }
 
     #[test]

@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use bevy::prelude::*;
 use remote_robots::is_waiting;
 
-use super::state::{AfterTick, FileError, FrameSystems, OpenDialogues, Playback};
+use super::state::{AfterTick, FileError, FrameSystems, OpenDialogues, Playback, StopReason};
 use crate::clock::Clock;
 use crate::game::net;
 use crate::lab::rewind::Rewind;
@@ -72,7 +72,8 @@ fn pass_time(world: &mut World) {
         for _ in 0..due {
             rewind.play(world, |world| world.run_schedule(AfterTick));
             recording::follow(world, &rewind);
-            if began.elapsed() > FRAME_BUDGET || is_over(world) {
+            let stopped = world.resource::<StopReason>().0.is_some();
+            if began.elapsed() > FRAME_BUDGET || stopped || is_over(world) {
                 break;
             }
         }
