@@ -13,6 +13,7 @@ mod docs;
 mod duel;
 mod fairness;
 mod first_messages;
+mod golden_digests;
 mod images;
 mod network;
 mod numbers;

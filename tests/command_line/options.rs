@@ -26,6 +26,8 @@ fn an_option_without_effect_is_refused_and_named() {
             "--gamecontroller",
         ),
         (&["run", "--patience", "3"], "--patience"),
+        (&["run", "--heavy", "--radio", "udp"], "--heavy"),
+        (&["run", "--heavy", "--announce", "127.0.0.1:3838"], "--heavy"),
         (&["run", "--chaos-from", "10.0.0.7"], "--chaos"),
         (&["run", "--chaos", "127.0.0.1:65534"], "--chaos: 127.0.0.1:65534"),
         (&["play", "swap_figure_8", "--chaos", "127.0.0.1:7500"], "--chaos"),

@@ -6,6 +6,7 @@ mod check;
 mod duel;
 mod ending;
 mod fit_eyes;
+mod heavy;
 mod interrupt;
 mod kinds;
 mod options;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::ending::{CommandError, Ending, print_json, tell};
+use super::heavy;
 use super::interrupt::Interrupt;
 use super::options::{HostOptions, MatchOptions, SeedOption};
 use super::progress::progress_bar;
@@ -31,17 +32,25 @@ pub(super) struct RunCommand {
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
+    /// Play each tick twice, from a copy of the whole match, and end at the first thing that comes out differently. Many times
+    /// slower; not for matches that cross sockets.
+    #[arg(long)]
+    heavy: bool,
 }
 
 impl RunCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let choice = self.host.choice(&self.options, &self.seed)?;
+        if self.heavy {
+            heavy::check(&choice.network)?;
+        }
         let (header, (plan, _)) = ReplayHeader::of(Recorded::Match(choice), assets)?;
         let run = HeadlessRun {
             plan: &plan,
             patience: self.options.patience(),
             interrupt: Interrupt::listen(),
             recorder: self.record.begin(header)?,
+            heavy: self.heavy,
         };
         run.play(self.json, out)
     }
@@ -54,6 +63,8 @@ pub(super) struct HeadlessRun<'a> {
     pub patience: Duration,
     pub interrupt: Interrupt,
     pub recorder: Option<Recorder>,
+    /// Whether each tick is played twice.
+    pub heavy: bool,
 }
 
 impl HeadlessRun<'_> {
@@ -89,7 +100,11 @@ impl HeadlessRun<'_> {
             if self.plan.network.is_in_real_time() {
                 wait_until(started + Duration::from_secs_f64(game.clock().now()));
             }
-            game.tick();
+            if self.heavy {
+                heavy::tick_twice(game)?;
+            } else {
+                game.tick();
+            }
             self.recorder.as_mut().map_or(Ok(()), |recorder| recording::note(recorder, game))?;
             net::check_patience(game.world())?;
             if game.clock().tick.is_multiple_of(REPORT_EVERY) {

@@ -51,6 +51,12 @@ impl NetworkPlan {
         })
     }
 
+    /// Whether anything of the match crosses a socket.
+    pub fn has_sockets(&self) -> bool {
+        let tells = self.announce.is_some() || self.league_ports.is_some();
+        self.udp || tells || self.gamecontroller.is_some() || self.chaos.is_some()
+    }
+
     /// Whether the match follows a clock that is not its own.
     pub fn is_in_real_time(&self) -> bool {
         self.gamecontroller.is_some() || self.chaos.is_some()

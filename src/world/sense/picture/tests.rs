@@ -3,7 +3,6 @@
 use std::f32::consts::PI;
 
 use bevy::math::{Vec2, Vec3};
-use xxhash_rust::xxh3::xxh3_64;
 
 use super::*;
 use crate::data::Source;
@@ -208,9 +207,6 @@ fn equal_inputs_give_equal_bytes_and_other_dice_other_noise() {
     let mut dice = Dice::new(Seed(6), "pictures", None);
     studio.canvas.draw(&studio.hall, &studio.moment, &shot, &studio.light, &mut dice);
     assert_ne!(studio.canvas.image(), &image);
-    let bytes: Vec<u8> = image.pixels.iter().flat_map(|pixel| [pixel.y, pixel.u, pixel.v]).collect();
-    // The same on every machine. It changes with whatever is drawn otherwise.
-    insta::assert_snapshot!(format!("{:016x}", xxh3_64(&bytes)), @"329f5e9ddc3ed29a");
 }
 
 fn spread(image: &Image, rows: std::ops::Range<usize>) -> f32 {
