@@ -5,7 +5,6 @@ mod camera;
 mod laid_out;
 mod rewind;
 mod silent_robots;
-
 mod states;
 mod why;
 mod world;
