@@ -32,8 +32,8 @@ pub enum GhostVisual {
 struct Shade;
 
 /// How much of a ghost is seen.
-const BODY: f32 = 0.28;
-const NOSE: f32 = 0.6;
+const BODY: f32 = 0.45;
+const NOSE: f32 = 0.85;
 /// Radius of the disc under what is carried, m.
 const SHADE: f32 = 0.25;
 /// Ghosts lie over lines and under robots.
