@@ -11,6 +11,7 @@ mod corpus;
 mod coverage;
 mod docs;
 mod duel;
+mod export;
 mod fairness;
 mod first_messages;
 mod golden_digests;

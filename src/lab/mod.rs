@@ -1,9 +1,10 @@
 //! What gives evidence: scenarios that show what a team does, and check it; duels that measure how much a few robots are worth;
 //! cameras by whose pictures the fast model of eyes is fitted; matches that are kept and played again, or go back and on another
-//! way; counts of what strategies were seen to do.
+//! way, or are written as pages, logs and pictures for others; counts of what strategies were seen to do.
 
 pub mod coverage;
 pub mod duel;
+pub mod export;
 pub mod eyes;
 pub mod replay;
 pub mod rewind;

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod duel;
+mod export;
 mod fit_eyes;
 #[cfg(unix)]
 mod interrupt;

@@ -5,6 +5,7 @@ mod chaos;
 mod check;
 mod duel;
 mod ending;
+mod export;
 mod fit_eyes;
 mod heavy;
 mod interrupt;
@@ -62,6 +63,9 @@ enum CliCommand {
     /// Take pictures of random moments with a calibrated camera, and print the numbers of the fast model of eyes that fit them.
     #[command(after_help = EXIT_CODES)]
     FitEyes(fit_eyes::FitEyesCommand),
+    /// Write a recorded match as a page for a browser, a log for robotics tools, or pictures.
+    #[command(after_help = EXIT_CODES)]
+    Export(export::ExportCommand),
     /// Play one robot of a match that is elsewhere: its teamwork and its behaviour, over UDP.
     #[command(after_help = EXIT_CODES)]
     Robot(robot::RobotCommand),
@@ -104,6 +108,7 @@ impl Cli {
             Some(CliCommand::Why(why)) => why.run(&mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
+            Some(CliCommand::Export(export)) => export.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),
             Some(CliCommand::Chaos(chaos)) => chaos.run(&assets, &mut out),
             Some(CliCommand::Check(check)) => check.run(&assets, &mut out),

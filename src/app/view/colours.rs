@@ -4,6 +4,7 @@ use bevy::prelude::*;
 use bevy_egui::egui;
 
 use crate::ids::Team;
+use crate::lab::export::palette;
 use crate::strategy::language::SchemaKind;
 use crate::vision::ColourClass;
 
@@ -13,33 +14,33 @@ const fn rgb(hex: u32) -> Color {
 }
 
 /// Around the pitch.
-pub const FLOOR: Color = rgb(0x36_3D_3A);
+pub const FLOOR: Color = rgb(palette::FLOOR);
 /// The carpet.
-pub const CARPET: Color = rgb(0x2E_7D_46);
+pub const CARPET: Color = rgb(palette::CARPET);
 /// Every second mowing stripe.
-pub const STRIPE: Color = rgb(0x33_86_4C);
+pub const STRIPE: Color = rgb(palette::STRIPE);
 /// The fence around a pitch whose lines are painted on the carpet.
-pub const FENCE: Color = rgb(0x6E_76_72);
+pub const FENCE: Color = rgb(palette::FENCE);
 /// Lines, walls and penalty spots.
-pub const CHALK: Color = rgb(0xF1_F1_EA);
+pub const CHALK: Color = rgb(palette::CHALK);
 /// The goal in the east, as cameras see it too.
-pub const BLUE_GOAL: Color = rgb(0x2F_6F_DE);
+pub const BLUE_GOAL: Color = rgb(palette::BLUE_GOAL);
 /// The goal in the west, as cameras see it too.
-pub const YELLOW_GOAL: Color = rgb(0xF2_C2_30);
+pub const YELLOW_GOAL: Color = rgb(palette::YELLOW_GOAL);
 /// The body of a robot.
-pub const ROBOT: Color = rgb(0x1B_1D_22);
+pub const ROBOT: Color = rgb(palette::ROBOT);
 /// The head of a robot that has a neck: pale, so that one sees where it looks.
-pub const HEAD: Color = rgb(0xC9_D0_D6);
+pub const HEAD: Color = rgb(palette::HEAD);
 /// The line around a robot's parts.
-pub const ROBOT_EDGE: Color = rgb(0x5A_61_6B);
+pub const ROBOT_EDGE: Color = rgb(palette::ROBOT_EDGE);
 /// The ball.
-pub const BALL: Color = rgb(0xFF_8A_1F);
+pub const BALL: Color = rgb(palette::BALL);
 /// The edge of the ball.
-pub const BALL_EDGE: Color = rgb(0x6B_30_00);
+pub const BALL_EDGE: Color = rgb(palette::BALL_EDGE);
 /// A claim of the ball.
 pub const CLAIM: Color = BALL;
 /// A lock of the role swap.
-pub const LOCK: Color = rgb(0xFF_B3_00);
+pub const LOCK: Color = rgb(palette::LOCK);
 /// A message that got lost.
 pub const LOST: Color = rgb(0x9A_A2_9D);
 /// The ring of a robot under a person's hand.
@@ -77,10 +78,7 @@ pub const ACCENT: Color = rgb(0x3F_A9_63);
 
 /// The colour of a team's markers.
 pub const fn team(team: Team) -> Color {
-    match team {
-        Team::Home => rgb(0xD6_40_9F),
-        Team::Away => rgb(0x22_B8_CF),
-    }
+    rgb(palette::team(team))
 }
 
 /// A team's colour as text on a dark panel.

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use bevy::prelude::Component;
 
-use crate::comms::tcm::{DataType, Datagram};
+use crate::comms::messages::TeamMessage;
+use crate::comms::tcm::fragments::Header;
+use crate::comms::tcm::{Data, DataType, Datagram};
 use crate::ids::RobotId;
 
 /// A datagram from one robot to one other.
@@ -25,6 +27,12 @@ impl Packet {
     pub fn of(datagram: &Datagram) -> Option<Packet> {
         let (from, to) = (datagram.from, datagram.to.robot()?);
         Some(Packet { kind: datagram.kind, from, to, bytes: datagram.bytes.clone() })
+    }
+
+    /// The message that it brings; nothing, if it brings a piece of one.
+    pub fn message(&self) -> Option<TeamMessage> {
+        let (header, data) = Header::read(&self.bytes).ok()?;
+        TeamMessage::unserialise(header.data_type, data)
     }
 }
 

@@ -4,14 +4,11 @@ use crate::app::view::format;
 use crate::clock::Clock;
 use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{Transmission, TransmissionState};
-use crate::comms::tcm::Data;
-use crate::comms::tcm::fragments::Header;
 
 /// What stands at an arrow: the kind, and which attempt it belongs to.
 pub fn label(message: &Transmission) -> String {
     let kind = message.packet.kind;
-    let read = Header::read(&message.packet.bytes).ok();
-    match read.and_then(|(header, data)| TeamMessage::unserialise(header.data_type, data)) {
+    match message.packet.message() {
         Some(TeamMessage::RoleSwap(message)) => format!("{kind} {}", message.sequence()),
         _ => kind.to_string(),
     }
