@@ -175,5 +175,5 @@ fn senses_of_a_robot_that_is_not_there_or_that_no_file_has_are_told_with_their_p
     let nobody = error(r#"sensing_of: {4: "aibo_ers7_images"}"#);
     assert!(nobody.contains("home.sensing_of.4: the team has 4 players, from 0 on"), "{nobody}");
     let nothing = error(r#"sensing_of: {1: "nonesuch"}"#);
-    assert!(nothing.contains("home.sensing_of[1]: ") && nothing.contains("aibo_ers7_images"), "{nothing}");
+    assert!(nothing.contains("home.sensing_of.1: ") && nothing.contains("aibo_ers7_images"), "{nothing}");
 }

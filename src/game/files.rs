@@ -36,13 +36,13 @@ pub(crate) fn file_named(
     assets: &AssetFolder,
     source: &Source,
     kind: AssetKind,
-    (field, name): (&str, &str),
+    (field, name): (&Field, &str),
 ) -> Result<PathBuf, DataError> {
     let path = assets.file(kind, name);
     if assets.has_file(&path) {
         return Ok(path);
     }
-    Err(source.error_at(&Field::root().dotted(field), no_such(&kind.to_string(), name, assets.names(kind))))
+    Err(source.error_at(field, no_such(&kind.to_string(), name, assets.names(kind))))
 }
 
 /// Reads a file whose type checks its own numbers.

@@ -187,10 +187,11 @@ impl MatchPlan {
             file.rules.half_minutes = minutes;
             file.rules.validate().map_err(|fault| DataError::new("--minutes", fault.message))?;
         }
-        let pitch = file_named(assets, &source, AssetKind::Pitch, ("pitch", &file.pitch))?;
+        let pitch =
+            file_named(assets, &source, AssetKind::Pitch, (&Field::root().key("pitch"), &file.pitch))?;
         let pitch = checked(assets, &pitch)?;
         if choice.radio.is_none() {
-            file_named(assets, &source, AssetKind::Radio, ("radio", &file.radio))?;
+            file_named(assets, &source, AssetKind::Radio, (&Field::root().key("radio"), &file.radio))?;
         }
         file.home.check(assets, &source, "home", choice.home.is_none())?;
         file.away.check(assets, &source, "away", choice.away.is_none())?;

@@ -51,13 +51,18 @@ impl TeamFile {
         let others =
             [(AssetKind::Robot, "robot", &self.robot), (AssetKind::Sensing, "sensing", &self.sensing)];
         for (kind, field, name) in others.into_iter().chain(with_strategy.then_some(strategy)) {
-            file_named(assets, source, kind, (&format!("{side}.{field}"), name))?;
+            file_named(assets, source, kind, (&Field::root().key(side).key(field), name))?;
         }
         self.sensing_of.iter().try_for_each(|(number, name)| {
-            let field = format!("{side}.sensing_of.{number}");
+            let field = sense_of(side, *number);
             file_named(assets, source, AssetKind::Sensing, (&field, name)).map(drop)
         })
     }
+}
+
+/// Where a side's file names what one of its robots senses with.
+fn sense_of(side: &str, number: PlayerNumber) -> Field {
+    Field::root().key(side).key("sensing_of").key(number.to_string())
 }
 
 /// What robots sense with.
@@ -76,7 +81,12 @@ impl Senses {
         let sensing: Sensing = source.parse_sound()?;
         let calibration = match sensing.eyes.calibration() {
             Some(camera) => {
-                let file = file_named(assets, &source, AssetKind::Camera, ("eyes.calibration", camera))?;
+                let file = file_named(
+                    assets,
+                    &source,
+                    AssetKind::Camera,
+                    (&Field::root().key("eyes").key("calibration"), camera),
+                )?;
                 Some(Arc::new(checked(assets, &file)?))
             }
             None => None,
@@ -124,9 +134,10 @@ impl TeamPlan {
         if let Some(number) =
             names.sensing_of.keys().find(|number| usize::from(**number) >= strategy.players.len())
         {
-            let field = Field::root().key(side).key("sensing_of").key(number.to_string());
-            return Err(source
-                .error_at(&field, format!("the team has {} players, from 0 on", strategy.players.len())));
+            return Err(source.error_at(
+                &sense_of(side, *number),
+                format!("the team has {} players, from 0 on", strategy.players.len()),
+            ));
         }
         let others = names.sensing_of.iter().map(|(number, name)| Ok((*number, Senses::read(assets, name)?)));
         Ok(TeamPlan {

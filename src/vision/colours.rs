@@ -93,12 +93,6 @@ impl ColourBox {
         within(self.y, pixel.y) && within(self.u, pixel.u) && within(self.v, pixel.v)
     }
 
-    /// What is within a margin of a pixel in each channel.
-    pub fn around(pixel: Yuv, margin: u8) -> ColourBox {
-        let of = |value: u8| (value, value);
-        ColourBox { y: of(pixel.y), u: of(pixel.u), v: of(pixel.v) }.widened(margin)
-    }
-
     /// By a margin to both sides of each channel.
     pub fn widened(self, margin: u8) -> ColourBox {
         let wider = |(least, most): (u8, u8)| (least.saturating_sub(margin), most.saturating_add(margin));

@@ -3,8 +3,8 @@
 //! A picture is cut by colour into classes, as the teams of both papers do it (Hammerheads, section III): a [`ColourTable`] says
 //! what each [`ColourClass`] looks like to the camera as it is set. [`CameraCalibration`] holds all that people calibrate.
 //!
-//! A picture goes [`Image`] → [`Segmenter`] → [`recognise()`] → [`Recognised`]. [`Teaching`] is how people make a table, and [`Quality`]
-//! what it is worth.
+//! A picture goes [`Image`] → [`Segmenter`] → [`recognise()`] → [`Recognised`]. People make a
+//! table by [teaching](ColourTable::teach_at), and [`Quality`] is what it is worth.
 
 mod blob;
 mod calibration;
@@ -37,4 +37,3 @@ pub use quality::{ClassQuality, Quality};
 pub use recognise::{KnownObjects, Recognised, recognise};
 pub use segmentation::{MOST_BLOBS, Segmented, Segmenter};
 pub use settings::{CameraSettings, Resolution, WhiteBalance};
-pub use teach::Teaching;

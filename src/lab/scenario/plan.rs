@@ -138,10 +138,13 @@ impl ScenarioPlan {
             return Err(source.error_at(&Field::root().key("variants"), "a variant has none of its own"));
         }
         let game = file.game.clone().unwrap_or_else(|| DEFAULT_MATCH.into());
-        let path = file_named(assets, source, AssetKind::Match, ("game", &game))?;
+        let path = file_named(assets, source, AssetKind::Match, (&Field::root().key("game"), &game))?;
         let usual = MatchPlan::read_file(assets, &path, &Choice::default())?;
         let pitch = match &file.pitch {
-            Some(name) => checked(assets, &file_named(assets, source, AssetKind::Pitch, ("pitch", name))?)?,
+            Some(name) => checked(
+                assets,
+                &file_named(assets, source, AssetKind::Pitch, (&Field::root().key("pitch"), name))?,
+            )?,
             None => usual.pitch.clone(),
         };
         let home = source.required(&file.home, &Field::root(), "home")?;

@@ -13,7 +13,7 @@ use super::seen::{CameraView, seen_things};
 use super::thresholds;
 use super::view::{CalibrationView, CalibrationWish};
 use crate::app::view::colours;
-use crate::vision::{ColourClass, ColourLookup, Quality, Segmenter, Teaching, Yuv, recognise};
+use crate::vision::{ColourClass, ColourLookup, Quality, Segmenter, Yuv, recognise};
 
 /// What the panel keeps from frame to frame.
 #[derive(Default)]
@@ -197,13 +197,11 @@ impl<'a> CalibrationPage<'a> {
         if let Some(PixelPointer { at: (x, y), click: Some(click) }) = pointer
             && let Some(pixel) = image.at(x, y)
         {
-            let class = self.widget.panel.class;
-            let mut teaching = Teaching::new(self.edit.values.colours.clone());
+            let (class, colours) = (self.widget.panel.class, &mut self.edit.values.colours);
             match click {
-                PixelClick::Add => teaching.teach_at(class, image, (x, y), MARGIN),
-                PixelClick::TakeAway => teaching.forget(class, pixel),
+                PixelClick::Add => colours.teach_at(class, image, (x, y), MARGIN),
+                PixelClick::TakeAway => colours.forget(class, pixel),
             }
-            self.edit.values.colours = teaching.table().clone();
         }
     }
 
