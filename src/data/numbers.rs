@@ -75,14 +75,14 @@ fn unquoted(key: &str) -> String {
 /// Where in the text a walk from its beginning stands.
 #[derive(Default)]
 struct Walk {
-    path: Vec<Level>,
+    path: Vec<OpenBracket>,
     key: Option<String>,
     variant: Option<String>,
     index: usize,
 }
 
 /// A pair of brackets that is open, and what stood before it.
-struct Level {
+struct OpenBracket {
     steps: Vec<Segment>,
     index: usize,
 }
@@ -99,7 +99,7 @@ impl Walk {
     }
 
     fn open(&mut self) {
-        let level = Level { steps: self.steps(), index: self.index };
+        let level = OpenBracket { steps: self.steps(), index: self.index };
         self.path.push(level);
         (self.key, self.variant, self.index) = (None, None, 0);
     }

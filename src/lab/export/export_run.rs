@@ -205,14 +205,9 @@ impl Writers {
             return Err(ExportError::TooLate { wanted, ticks });
         }
         let digest = game.record().digest;
-        let mut exported = Exported::default();
-        exported.counts = ExportCounts {
-            ticks,
-            score: game.state().score,
-            digest: format!("{digest:016x}"),
-            ..ExportCounts::default()
-        };
-        exported.picture = self.picture;
+        let (score, digest_text) = (game.state().score, format!("{digest:016x}"));
+        let counts = ExportCounts { ticks, score, digest: digest_text, ..ExportCounts::default() };
+        let mut exported = Exported { picture: self.picture, counts, ..Exported::default() };
         if let Some(mut page) = self.page {
             page.note_under_way(watch.under_way());
             let most = self.wishes.page.map_or(0, |wish| wish.forks);
