@@ -78,10 +78,10 @@ fn matters(decision: &Decision) -> bool {
 
 /// How the robots were after a tick, to see what the next one changes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct EventWatch(Vec<WatchedRobot>);
+pub(super) struct EventWatch(Vec<RobotThen>);
 
 #[derive(Clone, Debug)]
-struct WatchedRobot {
+struct RobotThen {
     id: RobotId,
     role: usize,
     /// With the role that it had when it gave the lock.
@@ -90,11 +90,11 @@ struct WatchedRobot {
     crashed: bool,
 }
 
-type WatchedParts<'a> = (&'a RobotId, &'a Robot, &'a Role, Option<&'a Swapping>, Option<&'a Booking>);
+type RobotThenParts<'a> = (&'a RobotId, &'a Robot, &'a Role, Option<&'a Swapping>, Option<&'a Booking>);
 
-impl WatchedRobot {
-    fn new((id, robot, role, swapping, booking): WatchedParts) -> WatchedRobot {
-        WatchedRobot {
+impl RobotThen {
+    fn new((id, robot, role, swapping, booking): RobotThenParts) -> RobotThen {
+        RobotThen {
             id: *id,
             role: role.0,
             lock: swapping.and_then(|swapping| swapping.machine.lock()).map(|lock| (lock, role.0)),
@@ -104,7 +104,7 @@ impl WatchedRobot {
     }
 
     /// What has happened since it was as before.
-    fn since(&mut self, before: &WatchedRobot, strategies: &Strategies) -> Vec<MatchEventKind> {
+    fn since(&mut self, before: &RobotThen, strategies: &Strategies) -> Vec<MatchEventKind> {
         let robot = self.id;
         let mut happened = Vec::new();
         if let (Some((lock, role)), Some((known, since))) = (&mut self.lock, before.lock)
@@ -136,8 +136,8 @@ impl WatchedRobot {
 impl EventWatch {
     /// How the robots are now.
     pub(super) fn of(world: &mut World) -> EventWatch {
-        let mut parts = world.query::<WatchedParts>();
-        let mut robots: Vec<WatchedRobot> = parts.iter(world).map(WatchedRobot::new).collect();
+        let mut parts = world.query::<RobotThenParts>();
+        let mut robots: Vec<RobotThen> = parts.iter(world).map(RobotThen::new).collect();
         robots.sort_unstable_by_key(|robot| robot.id);
         EventWatch(robots)
     }

@@ -7,7 +7,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass, egui};
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::format;
 use crate::app::view::state::{Action, FreeArea, PanelSystems, Screen};
-use crate::app::view::time::asking::{AskedWhy, Question};
+use crate::app::view::time::asking::{AskedWhy, WhyQuestion};
 use crate::lab::why::WhyReport;
 
 pub(super) fn plugin(app: &mut App) {
@@ -57,7 +57,7 @@ fn show(
     Ok(())
 }
 
-fn show_progress(ui: &mut egui::Ui, question: &Question) {
+fn show_progress(ui: &mut egui::Ui, question: &WhyQuestion) {
     let (tried, all) = question.progress();
     let share = if all == 0 { 0.0 } else { tried as f32 / all as f32 };
     let text = if all == 0 {

@@ -24,13 +24,13 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(Resource, Default)]
 pub struct AskedWhy {
     /// The question that is worked on.
-    pub question: Option<Arc<Question>>,
+    pub question: Option<Arc<WhyQuestion>>,
     /// The last answer.
     pub report: Option<WhyReport>,
 }
 
 /// A question that is worked on by another thread. It ends early when nobody wants to know any more.
-pub struct Question {
+pub struct WhyQuestion {
     /// The tick that it is about.
     pub tick: u64,
     tried: AtomicU32,
@@ -39,7 +39,7 @@ pub struct Question {
     answer: Mutex<Option<WhyReport>>,
 }
 
-impl Question {
+impl WhyQuestion {
     /// How many changes were tried, and how many there are; none before it is known.
     pub fn progress(&self) -> (u32, u32) {
         (self.tried.load(Ordering::Relaxed), self.all.load(Ordering::Relaxed))
@@ -89,7 +89,7 @@ fn ask(
         Ok(plan) => plan,
         Err(error) => return file_error.0 = Some(error.to_string()),
     };
-    let question = Arc::new(Question {
+    let question = Arc::new(WhyQuestion {
         tick,
         tried: AtomicU32::new(0),
         all: AtomicU32::new(0),
