@@ -3,6 +3,8 @@
 //! A rule counts packets, and a packet is one delivery to one receiver: a message to three team mates is three packets,
 //! counted in the order of their sending. Times are seconds of the match.
 
+use std::ops::Range;
+
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
@@ -81,6 +83,20 @@ impl Which {
 }
 
 impl FaultRule {
+    /// Whatever a robot sends of a kind in some ticks is heard by nobody.
+    pub fn silencing(kind: DataType, from: RobotId, ticks: Range<u64>, dt: f32) -> FaultRule {
+        // Between two ticks, where rounding does not matter.
+        let before = |tick: u64| ((tick as f64 - 0.5) * f64::from(dt)).max(0.0) as f32;
+        FaultRule {
+            kind: Some(kind),
+            from: Some(from),
+            to: None,
+            between: Some((before(ticks.start), before(ticks.end))),
+            which: Which::All,
+            act: Act::Drop,
+        }
+    }
+
     /// Whether the rule counts this packet.
     pub fn matches(&self, packet: &Packet, now: f64) -> bool {
         let in_time = |(from, until): (f32, f32)| (f64::from(from)..f64::from(until)).contains(&now);

@@ -2,7 +2,7 @@
 
 use super::moment::MatchWatch;
 use super::page::{ForkRecorder, PageFork, PageRecorder};
-use crate::comms::radio::{Act, FaultRule, Transmission, TransmissionState, Which};
+use crate::comms::radio::{FaultRule, Transmission, TransmissionState};
 use crate::comms::tcm::DataType;
 use crate::game::requests::{RadioChange, Request, Requests};
 use crate::game::{Match, MatchPlan};
@@ -68,15 +68,7 @@ pub fn lost_before_goals(page: &PageRecorder, dt: f64, most: usize) -> Vec<ForkP
 /// The message is lost on its way to all whom it was sent to in that tick.
 fn lost(entry: &Transmission, goal: u64, dt: f64) -> ForkPlan {
     let (kind, from) = (entry.packet.kind, entry.packet.from);
-    let at = |ticks: f64| ((entry.sent as f64 + ticks) * dt) as f32;
-    let rule = FaultRule {
-        kind: Some(kind),
-        from: Some(from),
-        to: None,
-        between: Some((at(-0.5).max(0.0), at(0.5))),
-        which: Which::All,
-        act: Act::Drop,
-    };
+    let rule = FaultRule::silencing(kind, from, entry.sent..entry.sent + 1, dt as f32);
     ForkPlan {
         title: format!("{kind} from {from} is lost"),
         from: entry.sent,

@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::comms::radio::{Act, FaultRule, Loss, RadioRecord, Transmission, TransmissionState, Which};
+use crate::comms::radio::{FaultRule, Loss, RadioRecord, Transmission, TransmissionState};
 use crate::comms::tcm::DataType;
 use crate::game::requests::{RadioChange, Request, RobotChange};
 use crate::ids::RobotId;
@@ -136,14 +136,9 @@ impl Candidate {
         let change = match &self.meddling {
             Meddling::Deliver { packet, .. } => RadioChange::Deliver(packet.id),
             Meddling::Drop(packet) => RadioChange::Drop(packet.id),
-            Meddling::Unheard { kind, from, until } => RadioChange::Fault(FaultRule {
-                kind: Some(*kind),
-                from: Some(*from),
-                to: None,
-                between: Some((self.tick as f32 * dt - dt / 2.0, *until as f32 * dt - dt / 2.0)),
-                which: Which::All,
-                act: Act::Drop,
-            }),
+            Meddling::Unheard { kind, from, until } => {
+                RadioChange::Fault(FaultRule::silencing(*kind, *from, self.tick..*until, dt))
+            }
             Meddling::NoCrash(_) => return None,
         };
         Some(Request::Radio(change))
