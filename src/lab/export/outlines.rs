@@ -102,7 +102,7 @@ impl RobotOutlines {
             }
             Drive::Walker(_) => {
                 parts.extend(walking(half));
-                Vec2::new(0.55 * half.x, 0.0)
+                WalkerOutline { half }.neck()
             }
         };
         parts.extend((!is_behind).then_some(plate_outline));
@@ -118,35 +118,89 @@ fn on_unit(ink: Ink, points: impl Into<Vec<Vec2>>) -> BodyOutline {
 fn wheeled(kind: &RobotKind, half: Vec2) -> Vec<BodyOutline> {
     let mut parts = vec![on_unit(Ink::Body, box_at(Vec2::ZERO, half))];
     parts.extend(jaws(kind).into_iter().map(|jaw| on_unit(Ink::Edge, jaw)));
+    parts.extend(chevron(half).map(|bar| on_unit(Ink::Team, bar)));
+    parts
+}
+
+/// Two bars that meet ahead, for a body of this half size, m.
+pub fn chevron(half: Vec2) -> [[Vec2; 4]; 2] {
     let reach = Vec2::new(0.62 * half.x, 0.55 * half.y.min(2.0 * half.x));
     let thick = Vec2::X * (0.55 * half.x);
-    for side in [1.0, -1.0] {
+    [1.0, -1.0].map(|side| {
         let (tip, tail) = (Vec2::new(reach.x, 0.0), Vec2::new(thick.x - reach.x, side * reach.y));
-        parts.push(on_unit(Ink::Team, [tip, tail, tail - thick, tip - thick]));
-    }
-    parts
+        [tip, tail, tail - thick, tip - thick]
+    })
 }
 
 /// Paws, a trunk, and a head that narrows to the muzzle, with ears and a dark nose.
 fn walking(half: Vec2) -> Vec<BodyOutline> {
-    let at = |x: f32, y: f32| Vec2::new(x, y) * half;
-    let mut parts = Vec::new();
-    for (x, side) in [(-0.7, 1.0), (-0.7, -1.0), (0.72, 1.0), (0.72, -1.0)] {
-        let paw = rounded_box_at(at(x, 0.79 * side), at(0.26, 0.2), 0.18 * half.y);
-        parts.push(on_unit(Ink::Edge, paw));
-    }
-    parts.push(on_unit(Ink::Body, rounded_box_at(at(-0.12, 0.0), at(0.82, 0.8), 0.45 * half.y)));
+    let walker = WalkerOutline { half };
+    let paws = walker.hind_paws().into_iter().chain(walker.front_paws());
+    let mut parts: Vec<BodyOutline> = paws.map(|at| on_unit(Ink::Edge, walker.paw(at))).collect();
+    parts.push(on_unit(Ink::Body, walker.trunk()));
     let on_head = |ink, points: Vec<Vec2>| BodyOutline { of: BodyPart::Head, ink, points };
-    for side in [1.0, -1.0] {
-        let ear = [(0.0, 0.42), (-0.28, 0.78), (-0.3, 0.5), (-0.16, 0.36)].map(|(x, y)| at(x, side * y));
-        parts.push(on_head(Ink::Dark, ear.into()));
-    }
-    let right = [(-0.22, 0.18), (-0.18, 0.4), (0.02, 0.5), (0.22, 0.42), (0.48, 0.3), (0.6, 0.12)]
-        .map(|(x, y)| at(x, -y));
-    let left = right.into_iter().rev().map(|corner| Vec2::new(corner.x, -corner.y));
-    parts.push(on_head(Ink::Head, right.into_iter().chain(left).collect()));
-    parts.push(on_head(Ink::Dark, rounded_box_at(at(0.5, 0.0), at(0.1, 0.14), 0.1 * half.y)));
+    parts.extend(walker.ears().map(|ear| on_head(Ink::Dark, ear.into())));
+    parts.push(on_head(Ink::Head, walker.skull()));
+    parts.push(on_head(Ink::Dark, walker.nose()));
     parts
+}
+
+/// The parts of a robot on four legs with a body of this half size, m: paws and trunk in the frame of the body, the parts of the
+/// head around its joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WalkerOutline {
+    /// Half the length and half the width of its body.
+    pub half: Vec2,
+}
+
+impl WalkerOutline {
+    fn at(self, x: f32, y: f32) -> Vec2 {
+        Vec2::new(x, y) * self.half
+    }
+
+    /// Where the head turns.
+    pub fn neck(self) -> Vec2 {
+        self.at(0.55, 0.0)
+    }
+
+    /// The middles of the hind paws, the left one first.
+    pub fn hind_paws(self) -> [Vec2; 2] {
+        [1.0, -1.0].map(|side| self.at(-0.7, 0.79 * side))
+    }
+
+    /// The middles of the front paws, the left one first.
+    pub fn front_paws(self) -> [Vec2; 2] {
+        [1.0, -1.0].map(|side| self.at(0.72, 0.79 * side))
+    }
+
+    /// A paw around its middle.
+    pub fn paw(self, middle: Vec2) -> Vec<Vec2> {
+        rounded_box_at(middle, self.at(0.26, 0.2), 0.18 * self.half.y)
+    }
+
+    /// The trunk.
+    pub fn trunk(self) -> Vec<Vec2> {
+        rounded_box_at(self.at(-0.12, 0.0), self.at(0.82, 0.8), 0.45 * self.half.y)
+    }
+
+    /// The ears, the left one first.
+    pub fn ears(self) -> [[Vec2; 4]; 2] {
+        let corners = [(0.0, 0.42), (-0.28, 0.78), (-0.3, 0.5), (-0.16, 0.36)];
+        [1.0, -1.0].map(|side| corners.map(|(x, y)| self.at(x, side * y)))
+    }
+
+    /// A skull that narrows to the muzzle.
+    pub fn skull(self) -> Vec<Vec2> {
+        let right = [(-0.22, 0.18), (-0.18, 0.4), (0.02, 0.5), (0.22, 0.42), (0.48, 0.3), (0.6, 0.12)]
+            .map(|(x, y)| self.at(x, -y));
+        let left = right.into_iter().rev().map(|corner| Vec2::new(corner.x, -corner.y));
+        right.into_iter().chain(left).collect()
+    }
+
+    /// The nose.
+    pub fn nose(self) -> Vec<Vec2> {
+        rounded_box_at(self.at(0.5, 0.0), self.at(0.1, 0.14), 0.1 * self.half.y)
+    }
 }
 
 /// The corners of a box around a point.
@@ -155,7 +209,8 @@ pub fn box_at(centre: Vec2, half: Vec2) -> [Vec2; 4] {
         .map(|corner| centre + corner * half)
 }
 
-fn rounded_box_at(centre: Vec2, half: Vec2, radius: f32) -> Vec<Vec2> {
+/// The corners of a box with rounded corners around a point, counter-clockwise.
+pub fn rounded_box_at(centre: Vec2, half: Vec2, radius: f32) -> Vec<Vec2> {
     const STEPS: u8 = 5;
     let radius = radius.min(half.x).min(half.y);
     let quarter = std::f32::consts::FRAC_PI_2;

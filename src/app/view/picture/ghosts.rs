@@ -2,13 +2,14 @@
 
 use bevy::prelude::*;
 
-use super::shapes::{box_at, paint, polygon, ring, soft_disc};
+use super::shapes::{paint, polygon, ring, soft_disc};
 use super::visuals::{Drawn, between, height};
 use crate::app::view::colours;
 use crate::app::view::state::{Beside, Carried, FrameSystems, MatchBegun, Playback};
 use crate::clock::Clock;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
+use crate::lab::export::outlines::box_at;
 use crate::lab::rewind::{BranchId, Rewind};
 use crate::pitch::BallKind;
 use crate::robot::Robot;

@@ -4,10 +4,11 @@ use std::f32::consts::TAU;
 
 use bevy::prelude::*;
 
-use super::shapes::{box_at, frame, polygon, ring};
+use super::shapes::{frame, polygon, ring};
 use super::visuals::{Drawn, height};
 use crate::app::view::colours;
 use crate::app::view::state::MatchBegun;
+use crate::lab::export::outlines::box_at;
 use crate::pitch::Pitch;
 
 pub(super) fn plugin(app: &mut App) {

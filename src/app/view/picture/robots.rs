@@ -3,13 +3,14 @@
 
 use bevy::prelude::*;
 
-use super::shapes::{EDGE, Paint, Parent, box_at, fill, paint, part, polygon};
+use super::shapes::{EDGE, Paint, Parent, fill, paint, part, polygon};
 use super::visuals::{BodyVisual, Fade, height};
 use super::walkers::{HeadVisual, draw_flash, draw_walker};
 use crate::app::view::colours;
 use crate::app::view::state::MatchBegun;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
+use crate::lab::export::outlines::{box_at, chevron};
 use crate::robot::{Drive, Robot, RobotKind, Trailer, jaws};
 
 pub(super) fn plugin(app: &mut App) {
@@ -116,18 +117,9 @@ fn draw_unit(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, kind
     for jaw in jaws(kind) {
         fill(parent, meshes, &paint.edge, polygon(&jaw), 0.0);
     }
-    let reach = Vec2::new(0.62 * half.x, 0.55 * half.y.min(2.0 * half.x));
-    for chevron in chevron(reach, 0.55 * half.x) {
-        fill(parent, meshes, &paint.team, polygon(&chevron), 0.02);
+    for bar in chevron(half) {
+        fill(parent, meshes, &paint.team, polygon(&bar), 0.02);
     }
-}
-
-/// Two bars that meet ahead: their corners, for a chevron that reaches so far ahead and aside.
-fn chevron(reach: Vec2, thick: f32) -> [[Vec2; 4]; 2] {
-    [1.0, -1.0].map(|side| {
-        let (tip, tail) = (Vec2::new(reach.x, 0.0), Vec2::new(thick - reach.x, side * reach.y));
-        [tip, tail, tail - Vec2::X * thick, tip - Vec2::X * thick]
-    })
 }
 
 fn draw_plate(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, middle: Vec2, half: f32) {

@@ -21,30 +21,6 @@ pub fn polygon(corners: &[Vec2]) -> Mesh {
     mesh(corners.iter().copied(), indices.collect())
 }
 
-/// The corners of a box around a point.
-pub fn box_at(centre: Vec2, half: Vec2) -> [Vec2; 4] {
-    [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)]
-        .map(|corner| centre + corner * half)
-}
-
-/// The corners of a box with rounded corners, counter-clockwise.
-pub fn rounded_box_at(centre: Vec2, half: Vec2, radius: f32) -> Vec<Vec2> {
-    const STEPS: u32 = 5;
-    let radius = radius.min(half.x).min(half.y);
-    let inner = half - radius;
-    let quarter = TAU / 4.0;
-    [Vec2::new(1.0, 1.0), Vec2::new(-1.0, 1.0), Vec2::new(-1.0, -1.0), Vec2::new(1.0, -1.0)]
-        .into_iter()
-        .zip(0_u8..)
-        .flat_map(|(corner, turns)| {
-            (0..STEPS).map(move |step| {
-                let angle = quarter * (f32::from(turns) + step as f32 / (STEPS - 1) as f32);
-                centre + corner * inner + radius * unit(angle)
-            })
-        })
-        .collect()
-}
-
 /// A closed line of some width along the inside of a convex polygon, counter-clockwise or clockwise.
 pub fn frame(corners: &[Vec2], width: f32) -> Mesh {
     band(corners, &inset(corners, width), true)
@@ -152,6 +128,7 @@ fn mesh(points: impl IntoIterator<Item = Vec2>, indices: Vec<u32>) -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::export::outlines::{box_at, rounded_box_at};
 
     #[test]
     fn a_rounded_box_touches_its_sides_and_spares_its_corners() {

@@ -3,12 +3,13 @@
 
 use bevy::prelude::*;
 
-use super::shapes::{Paint, Parent, fill, paint, part, polygon, rounded_box_at, soft_disc};
+use super::shapes::{Paint, Parent, fill, paint, part, polygon, soft_disc};
 use super::visuals::{BodyVisual, Drawn, height};
 use crate::app::view::colours;
 use crate::app::view::state::{AfterTick, FrameSystems, Playback, Rewound};
 use crate::clock::Clock;
 use crate::geometry::{unit, wrap_angle};
+use crate::lab::export::outlines::WalkerOutline;
 use crate::robot::handling::{Handling, Kicking};
 use crate::robot::{Head, RobotKind};
 
@@ -69,14 +70,11 @@ pub(super) fn draw_walker(
     kind: &RobotKind,
     level: f32,
 ) {
-    let half = Vec2::new(kind.body.length, kind.body.width) / 2.0;
-    let at = |x: f32, y: f32| Vec2::new(x, y) * half;
-    let paw = polygon(&rounded_box_at(Vec2::ZERO, at(0.26, 0.2), 0.18 * half.y));
-    for side in [1.0, -1.0] {
-        let hind = at(-0.7, 0.79 * side);
+    let outline = WalkerOutline { half: Vec2::new(kind.body.length, kind.body.width) / 2.0 };
+    let paw = polygon(&outline.paw(Vec2::ZERO));
+    for (hind, front) in outline.hind_paws().into_iter().zip(outline.front_paws()) {
         let level = Transform::from_translation(hind.extend(-0.02));
         parent.spawn((Drawn, Mesh2d(meshes.add(paw.clone())), MeshMaterial2d(paint.edge.clone()), level));
-        let front = at(0.72, 0.79 * side);
         parent.spawn((
             (Drawn, Limb::Paw(front)),
             Mesh2d(meshes.add(paw.clone())),
@@ -84,34 +82,26 @@ pub(super) fn draw_walker(
             Transform::from_translation(front.extend(-0.02)),
         ));
     }
-    part(parent, meshes, paint, &rounded_box_at(at(-0.12, 0.0), at(0.82, 0.8), 0.45 * half.y));
-    let (joint, lift) = (at(0.55, 0.0), height::BALL + 0.4 - level);
+    part(parent, meshes, paint, &outline.trunk());
+    let (joint, lift) = (outline.neck(), height::BALL + 0.4 - level);
     let mut head = parent.spawn((
         (Drawn, Limb::Head { joint, lift }),
         Transform::from_translation(joint.extend(HEAD_LEVEL)),
         Visibility::Inherited,
     ));
-    head.with_children(|head| draw_head(head, meshes, paint, half));
+    head.with_children(|head| draw_head(head, meshes, paint, outline));
 }
 
 /// Height of a head over its body.
 const HEAD_LEVEL: f32 = 0.05;
 
-/// A skull that narrows to the muzzle, with ears and a dark nose, around the joint.
-fn draw_head(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, half: Vec2) {
-    let at = |x: f32, y: f32| Vec2::new(x * half.x, y * half.y);
-    let right = [(-0.22, 0.18), (-0.18, 0.4), (0.02, 0.5), (0.22, 0.42), (0.48, 0.3), (0.6, 0.12)]
-        .map(|(x, y)| at(x, -y));
-    let left = right.into_iter().rev().map(|corner| Vec2::new(corner.x, -corner.y));
-    let skull: Vec<Vec2> = right.into_iter().chain(left).collect();
-    for side in [1.0, -1.0] {
-        let ear =
-            [at(0.0, 0.42 * side), at(-0.28, 0.78 * side), at(-0.3, 0.5 * side), at(-0.16, 0.36 * side)];
+/// A skull with ears and a dark nose, around the joint.
+fn draw_head(parent: &mut Parent, meshes: &mut Assets<Mesh>, paint: &Paint, outline: WalkerOutline) {
+    for ear in outline.ears() {
         fill(parent, meshes, &paint.body, polygon(&ear), -0.005);
     }
-    fill(parent, meshes, &paint.head, polygon(&skull), 0.0);
-    let nose = rounded_box_at(at(0.5, 0.0), at(0.1, 0.14), 0.1 * half.y);
-    fill(parent, meshes, &paint.body, polygon(&nose), 0.005);
+    fill(parent, meshes, &paint.head, polygon(&outline.skull()), 0.0);
+    fill(parent, meshes, &paint.body, polygon(&outline.nose()), 0.005);
 }
 
 fn remember_heads(heads: Query<&Head>, mut drawn: Query<(&BodyVisual, &mut HeadVisual)>) {
