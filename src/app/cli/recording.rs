@@ -9,7 +9,6 @@ use super::ending::CommandError;
 use super::interrupt::Interrupt;
 use crate::data::AssetFolder;
 use crate::game::Match;
-use crate::game::requests::RequestLog;
 use crate::lab::replay::{Recorded, Recorder, ReplayHeader};
 use crate::lab::scenario::{Dependency, RunWatcher, ScenarioPlan};
 
@@ -101,11 +100,10 @@ impl RunRecorder<'_> {
 }
 
 impl RunWatcher for RunRecorder<'_> {
-    fn begin(&mut self, run: (Vec2, u64), game: &mut Match) {
+    fn begin(&mut self, run: (Vec2, u64), _: &mut Match) {
         let Some(folder) = self.folder else { return };
         let finished = self.recorder.take().map_or(Ok(()), finish);
         self.keep(finished);
-        game.world_mut().insert_resource(RequestLog::default());
         let opened = self.open(folder, run).map(|recorder| self.recorder = Some(recorder));
         self.keep(opened);
     }

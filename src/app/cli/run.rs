@@ -14,7 +14,6 @@ use super::recording::{self, RecordOption};
 use super::run_report::RunReport;
 use crate::data::AssetFolder;
 use crate::game::net::{self, Awaited};
-use crate::game::requests::RequestLog;
 use crate::game::{Match, MatchPlan};
 use crate::lab::replay::{Recorded, Recorder, ReplayHeader};
 use crate::world::referee::RuleBook;
@@ -75,9 +74,6 @@ impl HeadlessRun<'_> {
     pub fn play(mut self, json: bool, out: &mut impl Write) -> Result<Ending, CommandError> {
         let started = Instant::now();
         let mut game = Match::new(self.plan);
-        if self.recorder.is_some() {
-            game.world_mut().insert_resource(RequestLog::default());
-        }
         net::open(game.world_mut(), self.plan)?;
         await_robots(&mut game, self.patience, &self.interrupt)?;
         let played = self.play_on(&mut game, started);

@@ -14,7 +14,7 @@ use super::reader::{Replay, first_line};
 use super::states::hashes;
 use crate::clock::{Clock, TICK_HZ};
 use crate::game::record::{Record, TickTrace};
-use crate::game::requests::RequestLog;
+use crate::game::requests::Requests;
 
 /// Blocks between two with hashes of all state: those take a few milliseconds.
 const STATES_EVERY: usize = 10;
@@ -73,11 +73,8 @@ impl Recorder {
         if world.resource::<Clock>().tick != tick + 1 {
             return Ok(());
         }
-        if let Some(RequestLog(log)) = world.get_resource() {
-            let first = log.partition_point(|(of, _)| *of < tick);
-            let due = log[first..].iter().filter(|(of, _)| *of == tick);
-            self.block.requests.extend(due.map(|(of, request)| (*of, KeptRequest::of(request))));
-        }
+        let due = world.resource::<Requests>().due();
+        self.block.requests.extend(due.map(|request| (tick, KeptRequest::of(request))));
         self.block.traces.push(&TickTrace::take(world));
         self.block.digest = world.resource::<Record>().digest;
         self.ticks += 1;

@@ -9,7 +9,7 @@ use super::*;
 use crate::comms::radio::RadioRecord;
 use crate::data::{AssetFolder, AssetKind};
 use crate::game::record::{DigestPart, TraceDifference};
-use crate::game::requests::{BodyChange, RadioChange, Request, RequestLog, Requests, RobotChange};
+use crate::game::requests::{BodyChange, RadioChange, Request, Requests, RobotChange};
 use crate::game::{Choice, Match};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
@@ -62,7 +62,6 @@ fn record(recorded: Recorded, assets: &AssetFolder, path: &Path, ticks: u64) -> 
     let (header, (plan, _)) = ReplayHeader::of(recorded, assets).unwrap();
     let mut recorder = Recorder::create(path, header).unwrap();
     let mut game = Match::new(&plan);
-    game.world_mut().insert_resource(RequestLog::default());
     while !game.is_over() && game.clock().tick < ticks {
         meddle(&mut game);
         game.tick();
@@ -248,7 +247,6 @@ fn a_branch_has_what_came_before_it_and_goes_on_in_a_file_of_its_own() {
     let replay = Replay::read(&beside).unwrap();
     assert_eq!((replay.header.branched, replay.ticks()), (Some(222), 180));
     let mut other = Match::new(&friendly().plans(&shipped()).unwrap().0);
-    other.world_mut().insert_resource(RequestLog::default());
     while other.clock().tick < 330 {
         if other.clock().tick < 222 {
             meddle(&mut other);

@@ -11,9 +11,10 @@ use super::candidates::{Candidate, of_crashes, of_packets};
 use super::finding::{WhyFinding, WhyReport};
 use super::play::{ReplayedStretch, SPACING};
 use super::standing::MatchStanding;
+use crate::clock::{Clock, TICK_HZ};
 use crate::comms::radio::RadioRecord;
 use crate::data::DataError;
-use crate::game::requests::{Request, RequestLog};
+use crate::game::requests::Request;
 use crate::game::{Match, MatchPlan};
 use crate::lab::replay::{Recorder, Replay, ReplayHeader};
 use crate::state::Snapshot;
@@ -149,12 +150,9 @@ impl WhyPlan {
         let mut header = self.header.clone();
         header.branched = Some(finding.candidate.tick);
         let mut recorder = Recorder::create(path, header)?;
-        let mut plan = self.plan.clone();
-        let mut game = Match::new(&plan);
-        let clock = game.clock();
-        plan.script = finding.candidate.applied(&plan.script, clock.dt);
-        game = Match::new(&plan);
-        game.world_mut().insert_resource(RequestLog::default());
+        let clock = Clock::new(TICK_HZ);
+        let script = finding.candidate.applied(&self.plan.script, clock.dt);
+        let mut game = Match::new(&MatchPlan { script, ..self.plan.clone() });
         while game.clock().tick <= self.at + clock.ticks(AFTER) && !game.is_over() {
             game.tick();
             recorder.note(game.world_mut())?;

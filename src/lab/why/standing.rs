@@ -6,6 +6,7 @@ use bevy::prelude::*;
 use serde::Serialize;
 
 use crate::clock::Clock;
+use crate::game::record::{AGGLOMERATION, RADII};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::robot::Robot;
@@ -44,8 +45,6 @@ pub enum StandingDifference {
 
 /// A robot that is nearer to the ball than this has it, if nobody is nearer, m.
 const HAS_BALL: f32 = 0.6;
-/// Within this distance of the ball several robots are a crowd, m.
-const CROWD: f32 = 0.5;
 
 impl MatchStanding {
     /// Of the match in a world.
@@ -61,7 +60,9 @@ impl MatchStanding {
             .collect();
         robots.sort_unstable_by_key(|(id, ..)| *id);
         let nearest = robots.iter().min_by(|(_, one, _), (_, other, _)| one.total_cmp(other));
-        let near = |team: Team| robots.iter().filter(|(id, at, _)| id.team == team && *at < CROWD).count();
+        let near = |team: Team| {
+            robots.iter().filter(|(id, at, _)| id.team == team && *at < RADII[AGGLOMERATION]).count()
+        };
         MatchStanding {
             tick: world.resource::<Clock>().tick,
             score: world.resource::<MatchState>().score,

@@ -7,7 +7,7 @@ use crate::comms::radio::Loss;
 use crate::comms::tcm::DataType;
 use crate::data::AssetFolder;
 use crate::game::Match;
-use crate::game::requests::{Request, RequestLog, Requests, RobotChange};
+use crate::game::requests::{Request, Requests, RobotChange};
 use crate::ids::{RobotId, Team};
 use crate::lab::replay::{Recorded, Recorder, Replay, ReplayHeader};
 use crate::lab::scenario::ScenarioRef;
@@ -25,7 +25,6 @@ fn recorded(name: &str, path: &Path, ticks: u64, meddle: impl Fn(&mut Match)) ->
     let (header, (plan, _)) = ReplayHeader::of(scenario, &assets).unwrap();
     let mut recorder = Recorder::create(path, header).unwrap();
     let mut game = Match::new(&plan);
-    game.world_mut().insert_resource(RequestLog::default());
     while game.clock().tick < ticks {
         meddle(&mut game);
         game.tick();

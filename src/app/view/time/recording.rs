@@ -7,13 +7,11 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::*;
 
 use crate::app::view::state::{AfterTick, FileError, MatchBegun, Session};
-use crate::game::requests::RequestLog;
 use crate::lab::replay::{Bookmark, Recorder};
 use crate::lab::rewind::{BranchId, Rewind};
 
 pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Recording>()
-        .init_resource::<RequestLog>()
         .add_observer(begin)
         .add_systems(AfterTick, note)
         .add_systems(Last, finish.run_if(on_message::<AppExit>));
