@@ -5,7 +5,7 @@ use std::fmt;
 
 use bevy::math::ops;
 use bevy::prelude::*;
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal, StandardUniform};
 use rand_pcg::Pcg64Mcg;
 use xxhash_rust::xxh3::xxh3_64_with_seed;
@@ -70,6 +70,11 @@ impl Dice {
         -mean * ops::ln(1.0 - self.uniform())
     }
 
+    /// Uniform among the whole numbers from 0 to below `end`, which is above 0.
+    pub fn below(&mut self, end: usize) -> usize {
+        self.0.random_range(0..end)
+    }
+
     /// True with this probability: never at 0, always at 1.
     pub fn chance(&mut self, probability: f32) -> bool {
         self.uniform() < probability
@@ -106,6 +111,15 @@ mod tests {
         assert_eq!(stirred(1), stirred(1));
         assert_ne!(stirred(1), stirred(2));
         assert_ne!(stirred(1), first(7, "test", None));
+    }
+
+    #[test]
+    fn below_reaches_every_number_about_as_often() {
+        let mut dice = Dice::new(Seed(7), "test", None);
+        let mut counts = [0_u32; 7];
+        (0..7000).for_each(|_| counts[dice.below(7)] += 1);
+        // Four standard deviations.
+        assert!(counts.iter().all(|count| count.abs_diff(1000) < 120), "{counts:?}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What gives evidence: scenarios that show what a team does, and check it; duels that measure how much a few robots are worth;
 //! cameras by whose pictures the fast model of eyes is fitted; matches that are kept and played again, or go back and on another
-//! way, or are written as pages, logs and pictures for others; counts of what strategies were seen to do.
+//! way, or are written as pages, logs and pictures for others; counts of what strategies were seen to do; statistics by which it is judged.
 
 pub mod coverage;
 pub mod duel;
@@ -9,4 +9,5 @@ pub mod eyes;
 pub mod replay;
 pub mod rewind;
 pub mod scenario;
+pub mod statistics;
 pub mod why;

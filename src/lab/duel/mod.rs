@@ -7,11 +7,10 @@ mod choice;
 mod judge;
 mod plan;
 mod report;
-mod share;
+
 mod start;
 
 pub use choice::{DuelChoice, DuelTeams};
 pub use judge::{DuelJudge, OUT, TrialOutcome, TrialResult};
 pub use plan::DuelPlan;
 pub use report::{DuelReport, SideReport};
-pub use share::Share;

@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::choice::{DuelChoice, DuelTeams};
 use super::judge::{TrialOutcome, TrialResult};
-use super::share::Share;
 use crate::data::in_one_line;
 use crate::ids::Team;
+use crate::lab::statistics::Share;
 
 /// The result of a duel. Shares are of the trials that were decided.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,0 +1,62 @@
+//! The middle of a sample, and how sure it is.
+
+use statrs::statistics::{Data, OrderStatistics, Statistics};
+
+use super::interval::Interval;
+use super::quantiles::student_reach;
+
+/// The arithmetic mean; `None` of nothing.
+pub fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| mean_of_some(values))
+}
+
+/// The arithmetic mean of one value at least: whole numbers in any order have the same.
+pub(super) fn mean_of_some(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The value in the middle, or the mean of the two there; `None` of nothing.
+pub fn median(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| Data::new(values.to_vec()).median())
+}
+
+/// A mean and how far the values lie from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// How many values.
+    pub count: usize,
+    /// Their arithmetic mean.
+    pub mean: f64,
+    /// Their standard deviation, with one value less than there are for the divisor.
+    pub deviation: f64,
+}
+
+impl Spread {
+    /// Of two values at least.
+    pub fn of(values: &[f64]) -> Option<Spread> {
+        let count = values.len();
+        (count >= 2).then(|| Spread { count, mean: mean_of_some(values), deviation: values.std_dev() })
+    }
+
+    /// Degrees of freedom of the deviation.
+    pub(super) fn freedom(self) -> f64 {
+        self.count as f64 - 1.0
+    }
+
+    /// The standard deviation of the mean.
+    pub fn standard_error(self) -> f64 {
+        self.deviation / (self.count as f64).sqrt()
+    }
+
+    /// An interval that holds the true mean in this share of cases if the mean of so many values is normal (Student, *The probable
+    /// error of a mean*, 1908).
+    pub fn interval(self, confidence: f64) -> Option<Interval> {
+        let reach = student_reach(confidence, self.freedom())?;
+        Some(Interval::around(self.mean, reach * self.standard_error()))
+    }
+}
+
+/// As [`Spread::interval`], of two values at least.
+pub fn mean_interval(values: &[f64], confidence: f64) -> Option<Interval> {
+    Spread::of(values)?.interval(confidence)
+}
