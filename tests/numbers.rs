@@ -23,7 +23,7 @@ const SCENARIO: &str = r#"(
     name: "Two and two",
     source: "test",
     seconds: 5,
-    seeds: 1,
+    seeds: 30,
     home: (strategy: "ball_chasers", players: [
         (number: 0, at: (-1.0, 0.5), facing: 0),
         (number: 1, at: (-1.0, -0.5), facing: 0),
@@ -40,6 +40,7 @@ const SCENARIO: &str = r#"(
         Always(what: InZone(what: Ball, zone: Rectangle(min: (-9.0, -9.0), max: (9.0, 9.0)))),
         Eventually(what: Distance(from: Robot("home 0"), to: At(0.0, 0.0), below: 50.0), within: 4),
         Never(what: Speed(of: Ball, above: 40.0), from: 1.0, until: 3.0),
+        Probability(of: Finally(what: Speed(of: Ball, below: 40.0)), at_least: 0.7, confidence: 0.9),
     ],
 )"#;
 

@@ -19,6 +19,10 @@ const SMALLEST: f32 = 0.001;
 impl Bound {
     /// A share of a whole.
     pub const SHARE: Bound = Bound::up_to(1.0, "");
+    /// A probability that trials can show: less than certainty.
+    pub const PROBABILITY: Bound = Bound { least: SMALLEST, most: 0.999, unit: "" };
+    /// How sure a verdict is: more than a guess, less than certainty.
+    pub const CONFIDENCE: Bound = Bound { least: 0.5, most: 0.9999, unit: "" };
     /// When something happens or how long it takes: a day.
     pub const SECONDS: Bound = Bound::up_to(86_400.0, " s");
     /// A day.

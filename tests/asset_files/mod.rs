@@ -1,6 +1,7 @@
 //! Files of all kinds, as a person keeps, damages and changes them.
 
 mod bases;
+mod probabilities;
 mod variants;
 
 use std::fs;

@@ -14,7 +14,7 @@ use super::recording::RunRecorder;
 use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, AssetKind, DataError, Field};
 use crate::lab::coverage::{Coverage, CoverageWatcher};
-use crate::lab::scenario::{ScenarioPlan, ScenarioRef, ScenarioReport, junit};
+use crate::lab::scenario::{ScenarioOutcome, ScenarioPlan, ScenarioRef, ScenarioReport, junit, rows};
 
 #[derive(Args, Debug, Default)]
 pub(super) struct CheckCommand {
@@ -27,6 +27,9 @@ pub(super) struct CheckCommand {
     /// Write the scenarios' results to a file, as JUnit XML.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
+    /// Write the scenarios' results to a file, as JSON: a row for each scenario and each place of the ball.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
     /// Record each run of a scenario in a file of its own in this folder, from which `replay` plays it again.
     #[arg(long, value_name = "FOLDER")]
     record: Option<PathBuf>,
@@ -52,7 +55,7 @@ struct Findings<'a, W> {
 
 impl CheckCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
-        if let Some(path) = &self.junit {
+        for path in self.junit.iter().chain(&self.json) {
             check_writable(path).map_err(CommandError::file(path))?;
         }
         if let Some(path) = self.coverage_file() {
@@ -80,10 +83,12 @@ impl CheckCommand {
         if self.ablate {
             findings.expect_ablations()?;
         }
-        if let Some(path) = &self.junit {
-            let xml = junit(&findings.reports).map_err(io::Error::other);
-            xml.and_then(|xml| write_whole(path, xml.as_bytes())).map_err(CommandError::file(path))?;
-        }
+        let xml = |reports: &[ScenarioReport]| junit(reports).map_err(io::Error::other);
+        let json = |reports: &[ScenarioReport]| {
+            serde_json::to_string_pretty(&rows(reports)).map(|text| text + "\n").map_err(io::Error::other)
+        };
+        write_results(self.junit.as_deref(), xml, &findings.reports)?;
+        write_results(self.json.as_deref(), json, &findings.reports)?;
         if let Some(coverage) = &findings.coverage {
             writeln!(findings.out, "{coverage}")?;
             if let Some(path) = self.coverage_file() {
@@ -166,6 +171,17 @@ impl CheckCommand {
     }
 }
 
+/// Writes what a format makes of the scenarios' results to a file, if one is wanted.
+fn write_results(
+    path: Option<&Path>,
+    format: impl Fn(&[ScenarioReport]) -> io::Result<String>,
+    reports: &[ScenarioReport],
+) -> Result<(), CommandError> {
+    let Some(path) = path else { return Ok(()) };
+    let written = format(reports).and_then(|text| write_whole(path, text.as_bytes()));
+    written.map_err(CommandError::file(path))
+}
+
 /// Refuses to replace a file that is no table of coverage: it may be one that was to be checked.
 fn check_replaceable(path: &Path) -> Result<(), CommandError> {
     if path.is_file() && Coverage::read(path).is_err() {
@@ -223,16 +239,19 @@ impl<W: Write> Findings<'_, W> {
 
     fn conclude(self) -> io::Result<Ending> {
         let played = self.reports.iter().filter(|report| !report.interrupted);
-        let failed = played.clone().filter(|report| !report.passed()).count();
+        let count = |outcome| played.clone().filter(|report| report.outcome() == outcome).count();
+        let (failed, undecided) = (count(ScenarioOutcome::Failed), count(ScenarioOutcome::Undecided));
         let (played, faults) = (played.count(), self.faults);
+        let undecided_too = if undecided > 0 { format!(", {undecided} undecided") } else { String::new() };
         let (words, ending) = if self.interrupt.is_asked() {
-            let words =
-                format!("interrupted: {failed} of {played} scenarios failed, {faults} with faults so far");
+            let words = format!(
+                "interrupted: {failed} of {played} scenarios failed{undecided_too}, {faults} with faults so far"
+            );
             (words, Ending::Interrupted)
         } else if faults > 0 {
             (format!("{faults} with faults"), Ending::BadInput)
-        } else if failed > 0 {
-            (format!("{failed} of {played} scenarios failed"), Ending::Failed)
+        } else if failed + undecided > 0 {
+            (format!("{failed} of {played} scenarios failed{undecided_too}"), Ending::Failed)
         } else {
             ("all sound".into(), Ending::Done)
         };

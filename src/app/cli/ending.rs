@@ -14,7 +14,7 @@ use crate::game::net::NetworkError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ending {
     Done = 0,
-    /// A replay parts from its recording, a tick from its repetition, a scenario has failed, a robot has lost its match, or its picture did not arrive.
+    /// A replay parts from its recording, a tick from its repetition, a scenario has failed or is undecided, a robot has lost its match, or its picture did not arrive.
     Failed = 1,
     BadInput = 2,
     /// A result could not be written.
@@ -37,8 +37,8 @@ impl Ending {
 pub(super) const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    a scenario failed, a replay parts from its recording or a tick from its repetition, a robot has lost its match, or
-       what ChaosManager wanted has not arrived
+  1    a scenario failed or is undecided, a replay parts from its recording or a tick from its repetition, a robot has lost its
+       match, or what ChaosManager wanted has not arrived
   2    bad input: a file, an option or an address, or an order that was refused
   3    a result could not be written
   4    the window could not be kept open

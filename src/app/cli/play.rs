@@ -84,10 +84,8 @@ impl PlayCommand {
             return Err(DataError::new("--record", message).into());
         }
         tell(format_args!("{missing}, so the scenario is played headless"));
-        let seed = seed.or_else(|| plan.scenario.seeds.first().copied());
-        plan.scenario.seeds = seed.into_iter().collect();
-        plan.scenario.places.truncate(1);
-        plan.scenario.may_fail = 0;
+        let seed = seed.or_else(|| plan.scenario.seeds.first().copied()).unwrap_or(DEFAULT_SEED);
+        plan.scenario = plan.scenario.with_one_seed(seed);
         let report = plan.run_watched(None, &mut interrupt);
         writeln!(out, "{report}")?;
         Ok(match report.passed() {

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::comms::tcm::DataType;
 use crate::geometry::Zone;
 use crate::ids::{RobotId, Team};
+use crate::lab::statistics::ProbabilityTest;
 
 /// What a scenario must show. Times are seconds since it began; a tick on a limit counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,12 +52,16 @@ pub enum Expectation {
         #[serde(default)]
         because: String,
     },
+    /// Is met with a seed with this probability at least. Seeds are played until that is shown or refuted, with an error of at most 1 -
+    /// `confidence`.
+    Probability { of: Box<Expectation>, at_least: f64, confidence: f64 },
 }
 
 impl Expectation {
     /// The condition that it is about.
     pub fn what(&self) -> &Condition {
         match self {
+            Expectation::Probability { of, .. } => of.what(),
             Expectation::Eventually { what, .. }
             | Expectation::Always { what, .. }
             | Expectation::Never { what, .. }
@@ -67,10 +72,29 @@ impl Expectation {
     /// Why it must hold, for people; empty if not given.
     pub fn because(&self) -> &str {
         match self {
+            Expectation::Probability { of, .. } => of.because(),
             Expectation::Eventually { because, .. }
             | Expectation::Always { because, .. }
             | Expectation::Never { because, .. }
             | Expectation::Finally { because, .. } => because,
+        }
+    }
+
+    /// What is looked at while one seed is played.
+    pub fn with_one_seed(&self) -> &Expectation {
+        match self {
+            Expectation::Probability { of, .. } => of.with_one_seed(),
+            _ => self,
+        }
+    }
+
+    /// With what probability it must be met; `None` if it must be met with each seed.
+    pub fn probability(&self) -> Option<ProbabilityTest> {
+        match *self {
+            Expectation::Probability { at_least, confidence, .. } => {
+                Some(ProbabilityTest { at_least, confidence })
+            }
+            _ => None,
         }
     }
 }

@@ -33,10 +33,11 @@ pub struct ScenarioFile {
     /// A radio, by its file's name; `perfect` if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radio: Option<String>,
-    /// The seeds that it is played with; ten if not given.
+    /// The seeds that it is played with; ten if not given. With a [`Expectation::Probability`], as many of them as decide it; 500 at the
+    /// most if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seeds: Option<Seeds>,
-    /// With how many of the seeds it may fail, at each place of the ball; none if not given.
+    /// With how many of the seeds it may fail, at each place of the ball; none if not given. Not with a [`Expectation::Probability`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub may_fail: Option<u16>,
     /// How long it takes; needed.

@@ -31,6 +31,11 @@ impl Verdict {
     pub fn passed(&self) -> bool {
         self.failures.is_empty()
     }
+
+    /// Whether the expectation with these words was met.
+    pub fn met(&self, expectation: &str) -> bool {
+        self.failures.iter().all(|failure| failure.expectation != expectation)
+    }
 }
 
 /// An expectation that was not met.
@@ -136,13 +141,15 @@ impl Case {
     fn new(expectation: &Expectation, dt: f32, end: u64) -> Case {
         let at = |seconds: f32| ticks(seconds, dt);
         let span = |from: f32, until: Option<f32>| (at(from), until.map_or(end, at).min(end));
-        let (kind, (first, last)) = match expectation {
+        let watched = expectation.with_one_seed();
+        let (kind, (first, last)) = match watched {
             Expectation::Eventually { within, after, .. } => {
                 (Demand::Eventually, span(*after, Some(after + within)))
             }
             Expectation::Always { from, until, .. } => (Demand::Always, span(*from, *until)),
             Expectation::Never { from, until, .. } => (Demand::Never, span(*from, *until)),
-            Expectation::Finally { .. } => (Demand::Always, (end, end)),
+            // Of one seed it is what must be met that is watched, so the last of these does not occur.
+            Expectation::Finally { .. } | Expectation::Probability { .. } => (Demand::Always, (end, end)),
         };
         let watch = Watch::new(expectation.what(), dt);
         Case { words: expectation.to_string(), kind, first, last, watch, state: CaseState::Open }

@@ -16,6 +16,7 @@ mod run;
 mod scene;
 #[cfg(test)]
 mod stage;
+mod tally;
 mod watch;
 mod words;
 
@@ -26,6 +27,7 @@ pub use event::{Dependency, Event, TimedEvent};
 pub use file::{BallFile, BallPlaces, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
 pub use judge::{Failure, Judge, Verdict};
 pub use plan::{ScenarioPlan, ScenarioRef};
-pub use report::{ScenarioReport, ScenarioRun, junit};
+pub use report::{ScenarioReport, ScenarioRow, ScenarioRun, junit, rows};
 pub use run::{RunWatcher, observe};
 pub use scene::{RobotScene, Scene};
+pub use tally::{ProbabilityCount, ScenarioOutcome};

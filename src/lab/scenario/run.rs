@@ -6,12 +6,12 @@ use std::time::Instant;
 use bevy::prelude::*;
 use xxhash_rust::xxh3::Xxh3DefaultBuilder;
 
-use super::check::Scenario;
 use super::event::Dependency;
 use super::judge::{Judge, Verdict};
 use super::plan::ScenarioPlan;
 use super::report::{ScenarioReport, ScenarioRun};
 use super::scene::{RobotScene, Scene};
+use super::tally::{ProbabilityCount, Tally};
 use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
 use crate::game::Match;
@@ -66,32 +66,53 @@ struct NoWatcher;
 impl RunWatcher for NoWatcher {}
 
 impl ScenarioPlan {
-    /// Plays the scenario with the ball at each of its places and with each of its seeds.
+    /// Plays the scenario with the ball at each of its places and with each of its seeds, or until all that must be met with a probability
+    /// is decided.
     pub fn run(&self, without: Option<Dependency>) -> ScenarioReport {
         self.run_watched(without, &mut NoWatcher)
     }
 
-    /// Plays the scenario with the ball at each of its places and with each of its seeds, or until a watcher stops it: then the
-    /// run of that moment does not count.
+    /// As [`ScenarioPlan::run`], or until a watcher stops it: then the run of that moment does not count.
     pub fn run_watched(&self, without: Option<Dependency>, watcher: &mut impl RunWatcher) -> ScenarioReport {
         let plan = without.map_or_else(|| self.clone(), |dependency| self.without(dependency));
-        let Scenario { places, seeds, .. } = &self.scenario;
-        let runs = places.iter().flat_map(|place| seeds.iter().map(|seed| (*place, *seed)));
-        let runs = runs.map_while(|(place, seed)| {
-            let start = Instant::now();
-            let verdict = plan.play_watched(place, seed, watcher)?;
-            Some(ScenarioRun { place, seed, verdict, took: start.elapsed() })
-        });
-        let runs: Vec<ScenarioRun> = runs.collect();
-        ScenarioReport {
+        let mut report = ScenarioReport {
             file: self.origin.to_string(),
             variant: self.origin.variant.clone(),
             name: self.scenario.name.clone(),
             without,
             may_fail: self.scenario.may_fail,
-            interrupted: runs.len() < places.len() * seeds.len(),
-            runs,
+            probabilities: ProbabilityCount::all_of(&self.scenario),
+            interrupted: false,
+            runs: Vec::new(),
+        };
+        for place in &self.scenario.places {
+            if plan.play_place(*place, &mut report, watcher).is_none() {
+                report.interrupted = true;
+                break;
+            }
         }
+        report
+    }
+
+    /// Plays the scenario with the ball at one place, with all of its seeds or until every probability is decided; `None` if it is
+    /// stopped before.
+    fn play_place(
+        &self,
+        place: Vec2,
+        report: &mut ScenarioReport,
+        watcher: &mut impl RunWatcher,
+    ) -> Option<()> {
+        let mut tally = Tally::new(&report.probabilities);
+        for seed in &self.scenario.seeds {
+            let start = Instant::now();
+            let verdict = self.play_watched(place, *seed, watcher)?;
+            tally.add(&verdict);
+            report.runs.push(ScenarioRun { place, seed: *seed, verdict, took: start.elapsed() });
+            if tally.is_decided() {
+                break;
+            }
+        }
+        Some(())
     }
 
     /// Plays the scenario with the ball at one place and with one seed, until everything is decided.

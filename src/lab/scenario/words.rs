@@ -50,6 +50,12 @@ impl Display for Area {
 impl Display for Expectation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Expectation::Probability { of, at_least, confidence } => {
+                return write!(
+                    f,
+                    "with a probability of at least {at_least} (confidence {confidence}), {of}"
+                );
+            }
             Expectation::Eventually { within, after, .. } if *after > 0.0 => {
                 // To the millisecond, as sums of such numbers have more digits than people want.
                 let until = ((after + within) * 1000.0).round() / 1000.0;

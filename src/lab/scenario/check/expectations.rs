@@ -7,6 +7,7 @@ use crate::data::{Bound, Field, no_such};
 use crate::geometry::Zone;
 use crate::ids::{RobotId, Team};
 use crate::lab::scenario::condition::{Area, Condition, Expectation, Packets, Thing};
+use crate::lab::statistics::ProbabilityTest;
 
 impl Checker<'_> {
     pub(super) fn expectation(&self, expectation: &Expectation, at: &Field) -> Checked<()> {
@@ -26,8 +27,27 @@ impl Checker<'_> {
             Expectation::Always { from, until, .. } => self.span(*from, *until, at.key("Always"))?,
             Expectation::Never { from, until, .. } => self.span(*from, *until, at.key("Never"))?,
             Expectation::Finally { .. } => at.key("Finally"),
+            Expectation::Probability { of, at_least, confidence } => {
+                return self.probability(of, *at_least, *confidence, &at.key("Probability"));
+            }
         };
         self.condition(expectation.what(), &at.key("what"))
+    }
+
+    fn probability(&self, of: &Expectation, at_least: f64, confidence: f64, at: &Field) -> Checked<()> {
+        self.source.within(&at.key("at_least"), at_least as f32, Bound::PROBABILITY)?;
+        self.source.within(&at.key("confidence"), confidence as f32, Bound::CONFIDENCE)?;
+        if of.probability().is_some() {
+            return self.fault(&at.key("of"), "a probability of a probability means nothing");
+        }
+        let most = self.seeds as u32;
+        if (ProbabilityTest { at_least, confidence }).fewest(most).is_none() {
+            let message = format!(
+                "{most} seeds can never show it, though all of them meet it: `seeds` must allow more"
+            );
+            return self.fault(&at.key("at_least"), message);
+        }
+        self.expectation(of, &at.key("of"))
     }
 
     fn span(&self, from: f32, until: Option<f32>, at: Field) -> Checked<Field> {

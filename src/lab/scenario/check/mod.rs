@@ -14,7 +14,7 @@ use bevy::prelude::Vec2;
 
 use super::condition::Expectation;
 use super::event::{Dependency, TimedEvent};
-use super::file::{BallPlaces, Referee, ScenarioFile};
+use super::file::{BallPlaces, Referee, ScenarioFile, Seeds};
 use super::watch::ticks;
 use crate::comms::radio::FaultRule;
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
@@ -38,7 +38,7 @@ pub struct Scenario {
     pub description: String,
     /// The file's name.
     pub radio: String,
-    /// The seeds that it is played with.
+    /// The seeds that it is played with; where something must be met with a probability, only as many of them as decide it.
     pub seeds: Vec<u64>,
     /// With how many of the seeds it may fail, at each place of the ball.
     pub may_fail: usize,
@@ -71,6 +71,17 @@ impl Scenario {
     /// Where the ball starts in the first run.
     pub fn first_place(&self) -> Vec2 {
         self.places.first().copied().unwrap_or_default()
+    }
+
+    /// The same with one seed, with the ball at the first place only, where all of it must be met.
+    pub fn with_one_seed(&self, seed: u64) -> Scenario {
+        Scenario {
+            seeds: vec![seed],
+            places: self.places.iter().take(1).copied().collect(),
+            may_fail: 0,
+            expect: self.expect.iter().map(|expectation| expectation.with_one_seed().clone()).collect(),
+            ..self.clone()
+        }
     }
 
     /// All robots that take part, in order.
@@ -129,12 +140,19 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Checked<Sce
     let name = source.required(&file.name, &root, "name")?;
     let seconds = source.required(&file.seconds, &root, "seconds")?;
     let ball = source.required(&file.ball, &root, "ball")?;
-    let mut checker = Checker { source, known, seconds, robots: Vec::new(), standing: Vec::new() };
+    let mut checker = Checker { source, known, seconds, seeds: 0, robots: Vec::new(), standing: Vec::new() };
     if name.trim().is_empty() {
         return checker.fault(&root.key("name"), "must say what the scenario shows");
     }
     source.within(&root.key("seconds"), seconds, Bound::SECONDS.positive())?;
-    let seeds = checker.seeds(file.seeds.clone().unwrap_or_default().to_vec(), &root.key("seeds"))?;
+    let is_tested = file.expect.iter().any(|expectation| expectation.probability().is_some());
+    let usual = if is_tested { Seeds::Count(SEEDS_OF_A_TEST) } else { Seeds::default() };
+    let seeds = checker.seeds(file.seeds.clone().unwrap_or(usual).to_vec(), &root.key("seeds"))?;
+    checker.seeds = seeds.len();
+    if is_tested && file.may_fail.is_some() {
+        let message = "does not go with `Probability`, by which expectations say how often they are met";
+        return checker.fault(&root.key("may_fail"), message);
+    }
     let may_fail = usize::from(file.may_fail.unwrap_or_default());
     if may_fail >= seeds.len() {
         let message = format!("must be less than the number of seeds, {}", seeds.len());
@@ -188,6 +206,8 @@ pub fn check(file: &ScenarioFile, source: &Source, known: &Known) -> Checked<Sce
 
 /// Seeds of a scenario.
 const MOST_SEEDS: usize = 10_000;
+/// The most seeds that are played until a probability is shown or refuted, where the file does not say.
+const SEEDS_OF_A_TEST: u16 = 500;
 /// Places of the ball in a scenario.
 const MOST_PLACES: usize = 10_000;
 
@@ -196,6 +216,8 @@ struct Checker<'a> {
     known: &'a Known<'a>,
     /// How long the scenario takes.
     seconds: f32,
+    /// The number of its seeds.
+    seeds: usize,
     /// Those that take part, as far as the file has been read.
     robots: Vec<RobotId>,
     standing: Vec<PlacedBody>,

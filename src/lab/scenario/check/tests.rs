@@ -270,3 +270,51 @@ fn a_checked_script_can_be_shown_as_data() {
     let text = ron_options().to_string(&scenario.script[1]).unwrap();
     assert_eq!(text, r#"(at:3.0,what:Crash("home 1"))"#);
 }
+
+/// What is wrong if the first expectation must be met with a probability.
+fn trouble_of_probability(seeds: &str, numbers: &str) -> String {
+    let first = r#"Eventually(what: ActingAs("home 2", "halfback"), within: 5, after: 3)"#;
+    let text = EXAMPLE.replacen("seeds: 3,", seeds, 1);
+    let text = text.replacen(first, &format!("Probability(of: {first}, {numbers})"), 1);
+    checked(&text)
+        .map_or_else(|error| error.to_string(), |scenario| format!("{} seeds", scenario.seeds.len()))
+}
+
+#[test]
+fn a_probability_is_one_that_the_seeds_can_show() {
+    let sound = "at_least: 0.9, confidence: 0.95";
+    for (seeds, numbers, expected) in [
+        ("", sound, "500 seeds"),
+        ("seeds: 60,", sound, "60 seeds"),
+        ("seeds: 60,", "at_least: 1, confidence: 0.95", "at_least: must be at most 0.999, not 1"),
+        ("seeds: 60,", "at_least: 0, confidence: 0.95", "at_least: must be at least 0.001, not 0"),
+        ("seeds: 60,", "at_least: NaN, confidence: 0.95", "at_least: must be a number, not NaN"),
+        ("seeds: 60,", "at_least: 0.9, confidence: 1", "confidence: must be at most 0.9999, not 1"),
+        ("seeds: 60,", "at_least: 0.9, confidence: 0.2", "confidence: must be at least 0.5, not 0.2"),
+        (
+            "seeds: 10,",
+            sound,
+            "x.ron:21:106: expect[0].Probability.at_least: 10 seeds can never show it, though all of them meet it: `seeds` \
+             must allow more",
+        ),
+        ("seeds: 60, may_fail: 2,", sound, "x.ron:4:26: may_fail: does not go with `Probability`"),
+        ("may_fail: 0,", sound, "may_fail: does not go with `Probability`"),
+    ] {
+        let error = trouble_of_probability(seeds, numbers);
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn what_is_probable_is_checked_like_any_other_expectation() {
+    let within = |of: &str| {
+        let first = r#"Eventually(what: ActingAs("home 2", "halfback"), within: 5, after: 3)"#;
+        let text = EXAMPLE.replacen("seeds: 3,", "", 1);
+        let tested = format!("Probability(of: {of}, at_least: 0.9, confidence: 0.95)");
+        checked(&text.replacen(first, &tested, 1)).unwrap_err().to_string()
+    };
+    let error = within(r#"Finally(what: RoleOf("home 9", "goalie"))"#);
+    assert!(error.contains("Probability.of.Finally.what.RoleOf[0]: there is no robot `home 9`"), "{error}");
+    let error = within("Probability(of: Finally(what: RolesDistinct(Home)), at_least: 0.8, confidence: 0.9)");
+    assert!(error.contains("Probability.of: a probability of a probability means nothing"), "{error}");
+}

@@ -4,6 +4,7 @@ use quick_xml::events::Event;
 use quick_xml::{Reader, XmlVersion};
 
 use super::*;
+use crate::lab::statistics::ProbabilityTest;
 
 fn failure(tick: u64) -> Failure {
     Failure {
@@ -28,7 +29,76 @@ fn run(place: Vec2, seed: u64, failures: Vec<Failure>) -> ScenarioRun {
 
 fn of(without: Option<Dependency>, may_fail: usize, runs: Vec<ScenarioRun>) -> ScenarioReport {
     let (file, name) = ("swap".into(), "A <swap> works".into());
-    ScenarioReport { file, variant: None, name, without, may_fail, runs, interrupted: false }
+    let probabilities = Vec::new();
+    ScenarioReport { file, variant: None, name, without, may_fail, probabilities, runs, interrupted: false }
+}
+
+/// So many runs at one place, of which these do not meet what must be met with a probability of 0.5, sure to 0.9.
+fn tested(runs: u64, failing: &[u64], without: Option<Dependency>) -> ScenarioReport {
+    let failures = |seed| if failing.contains(&seed) { vec![failure(300)] } else { Vec::new() };
+    let mut report = of(without, 0, (1..=runs).map(|seed| run(Vec2::ZERO, seed, failures(seed))).collect());
+    let test = ProbabilityTest { at_least: 0.5, confidence: 0.9 };
+    report.probabilities = vec![ProbabilityCount::new(failure(0).expectation, test)];
+    report
+}
+
+#[test]
+fn what_is_probable_is_told_with_its_count_of_seeds() {
+    let passes = tested(9, &[2], None);
+    assert_eq!(passes.outcome(), ScenarioOutcome::Passed);
+    assert_eq!(
+        passes.to_string(),
+        "ok    A <swap> works (9 seeds; 1 failed, as may be)\n      met with 8 of 9 seeds: by 5 s: home 1 is forward"
+    );
+    let fails = tested(6, &[1, 2, 3, 4, 5, 6], None);
+    assert_eq!(fails.outcome(), ScenarioOutcome::Failed);
+    let told = "FAIL  A <swap> works: 6 of 6 seeds\n      too seldom, met with 0 of 5 seeds: by 5 s: home 1 is forward";
+    assert_eq!(fails.to_string(), format!("{told}\n      all 6 seeds, {REASON}"));
+    let open = tested(4, &[1, 3], None);
+    assert_eq!(open.outcome(), ScenarioOutcome::Undecided);
+    assert!(!open.passed());
+    let told = "open  A <swap> works: undecided after 4 seeds\n      undecided, met with 2 of 4 seeds: by 5 s: home 1 is forward";
+    assert_eq!(open.to_string(), format!("{told}\n      seeds 1, 3, {REASON}"));
+}
+
+#[test]
+fn what_must_be_met_with_each_seed_fails_beside_a_probability() {
+    let mut report = tested(9, &[2], None);
+    let other = Failure { expectation: "never: the ball is out".into(), ..failure(9) };
+    report.runs[8].verdict.failures.push(other);
+    assert_eq!(report.outcome(), ScenarioOutcome::Failed);
+    let xml = junit(&[report]).unwrap();
+    assert_eq!((xml.matches("<testcase ").count(), xml.matches("<failure ").count()), (2, 1), "{xml}");
+}
+
+#[test]
+fn without_what_it_depends_on_a_probability_must_be_refuted() {
+    let without = Some(Dependency::RoleSwap);
+    assert_eq!(tested(6, &[1, 2, 3, 4, 5, 6], without).outcome(), ScenarioOutcome::Passed);
+    assert_eq!(tested(4, &[1, 3], without).outcome(), ScenarioOutcome::Undecided);
+    let passes = tested(9, &[2], without);
+    assert_eq!(passes.outcome(), ScenarioOutcome::Failed);
+    assert_eq!(passes.to_string(), "FAIL  A <swap> works, without role swaps: passes all the same (9 seeds)");
+}
+
+#[test]
+fn an_undecided_probability_is_an_error_of_junit_and_a_verdict_of_json() {
+    let reports = [tested(9, &[2], None), tested(4, &[1, 3], None)];
+    let xml = junit(&reports).unwrap();
+    assert_eq!((xml.matches("<testcase ").count(), xml.matches("<failure ").count()), (4, 0), "{xml}");
+    assert_eq!(xml.matches("<error ").count(), 1, "{xml}");
+    assert!(
+        xml.contains("<system-out>met with 8 of 9 seeds: by 5 s: home 1 is forward</system-out>"),
+        "{xml}"
+    );
+    let json = serde_json::to_value(rows(&reports)).unwrap();
+    assert_eq!((&json[0]["outcome"], &json[1]["outcome"]), (&"Passed".into(), &"Undecided".into()));
+    assert_eq!((&json[0]["seeds"], &json[0]["failed"][0]["seed"]), (&9.into(), &2.into()));
+    let probability = &json[0]["probabilities"][0];
+    assert_eq!(
+        (&probability["met"], &probability["of"], &probability["verdict"]),
+        (&8.into(), &9.into(), &"Met".into())
+    );
 }
 
 /// Two places and three seeds each; fails with so many of them.
