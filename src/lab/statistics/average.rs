@@ -22,7 +22,7 @@ pub fn median(values: &[f64]) -> Option<f64> {
 
 /// A mean and how far the values lie from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
+pub struct SampleMoments {
     /// How many values.
     pub count: usize,
     /// Their arithmetic mean.
@@ -31,11 +31,11 @@ pub struct Spread {
     pub deviation: f64,
 }
 
-impl Spread {
+impl SampleMoments {
     /// Of two values at least.
-    pub fn of(values: &[f64]) -> Option<Spread> {
+    pub fn of(values: &[f64]) -> Option<SampleMoments> {
         let count = values.len();
-        (count >= 2).then(|| Spread { count, mean: mean_of_some(values), deviation: values.std_dev() })
+        (count >= 2).then(|| SampleMoments { count, mean: mean_of_some(values), deviation: values.std_dev() })
     }
 
     /// Degrees of freedom of the deviation.
@@ -56,7 +56,7 @@ impl Spread {
     }
 }
 
-/// As [`Spread::interval`], of two values at least.
+/// As [`SampleMoments::interval`], of two values at least.
 pub fn mean_interval(values: &[f64], confidence: f64) -> Option<Interval> {
-    Spread::of(values)?.interval(confidence)
+    SampleMoments::of(values)?.interval(confidence)
 }

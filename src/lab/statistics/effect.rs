@@ -1,12 +1,12 @@
 //! How large a difference is, without a unit.
 
-use super::average::Spread;
+use super::average::SampleMoments;
 use super::signed_rank::signed_rank;
 
 /// The mean of paired differences in standard deviations of these differences (J. Cohen, *Statistical power analysis for the behavioral
 /// sciences*, 1988, there d_z). `None` of fewer than two differences, or if all are equal.
 pub fn cohens_d_z(differences: &[f64]) -> Option<f64> {
-    let spread = Spread::of(differences)?;
+    let spread = SampleMoments::of(differences)?;
     (spread.deviation > 0.0).then(|| spread.mean / spread.deviation)
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use statrs::distribution::ContinuousCDF;
 
-use super::average::Spread;
+use super::average::SampleMoments;
 use super::interval::Interval;
 use super::quantiles::student;
 
@@ -24,7 +24,7 @@ pub struct Equivalence {
 /// approach*, 1987), each with an error of at most 1 - `confidence`; the interval that goes with them is of `2 confidence - 1`, such as 90 %
 /// for 0.95. `None` of fewer than two differences, or if all are equal.
 pub fn equivalence(differences: &[f64], margin: f64, confidence: f64) -> Option<Equivalence> {
-    let spread = Spread::of(differences).filter(|spread| spread.deviation > 0.0)?;
+    let spread = SampleMoments::of(differences).filter(|spread| spread.deviation > 0.0)?;
     let student = student(spread.freedom())?;
     let error = spread.standard_error();
     let too_low = student.sf((spread.mean + margin) / error);

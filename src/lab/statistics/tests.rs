@@ -156,7 +156,7 @@ fn assert_tail(found: f64, expected: f64, what: &str) {
 #[test]
 fn means_medians_and_their_intervals_are_those_of_scipy() {
     for SampleCase { name, values, average, d_z, .. } in values().samples {
-        let spread = Spread::of(&values).expect("it has two values");
+        let spread = SampleMoments::of(&values).expect("it has two values");
         assert_near(mean(&values).expect("it has values"), average.mean, &name);
         assert_near(median(&values).expect("it has values"), average.median, &name);
         assert_near(spread.deviation, average.deviation, &name);
@@ -295,7 +295,7 @@ fn samples_that_say_nothing_have_no_interval_and_no_test() {
         assert_eq!(cohens_d_z(values), None, "{values:?}");
         assert_eq!(equivalence(values, 0.3, 0.95), None, "{values:?}");
     }
-    assert_eq!((mean(&[]), median(&[]), Spread::of(&[1.0])), (None, None, None));
+    assert_eq!((mean(&[]), median(&[]), SampleMoments::of(&[1.0])), (None, None, None));
     assert_eq!((signed_rank(&[]), signed_rank(&[0.0, 0.0]), rank_biserial(&[0.0])), (None, None, None));
     assert_eq!((improvement_of_pairs(&[], 0.95), improvement_of_samples(&[], &[1.0], 0.95)), (None, None));
     assert_eq!((walsh_share(&[1.0]), paired_t_power(0.5, 1, 0.95)), (None, None));

@@ -1,6 +1,6 @@
 //! How many matches it takes until a mean is known to within a width.
 
-use super::average::Spread;
+use super::average::SampleMoments;
 use super::interval::Interval;
 use super::quantiles::{normal_reach, student_reach};
 
@@ -82,14 +82,14 @@ impl UntilWidth {
     }
 
     /// Values that are all equal say nothing about the spread.
-    fn is_narrow(self, spread: Spread) -> bool {
+    fn is_narrow(self, spread: SampleMoments) -> bool {
         let errors = self.width / 2.0 / spread.standard_error();
         let is_near = spread.deviation > 0.0 && errors >= normal_reach(self.confidence);
         is_near && student_reach(self.confidence, spread.freedom()).is_some_and(|reach| errors >= reach)
     }
 
     /// How many matches with this spread it takes.
-    fn estimate(self, spread: Spread) -> usize {
+    fn estimate(self, spread: SampleMoments) -> usize {
         let errors = normal_reach(self.confidence) * spread.deviation / (self.width / 2.0);
         (errors * errors).ceil() as usize
     }
@@ -113,9 +113,9 @@ impl Running {
         self.squares += off * (value - self.mean);
     }
 
-    fn spread(self) -> Spread {
+    fn spread(self) -> SampleMoments {
         let deviation = if self.count < 2 { 0.0 } else { (self.squares / (self.count as f64 - 1.0)).sqrt() };
-        Spread { count: self.count, mean: self.mean, deviation }
+        SampleMoments { count: self.count, mean: self.mean, deviation }
     }
 }
 
