@@ -72,21 +72,23 @@ impl ScenarioReport {
         }
     }
 
-    /// A line for each probability; with several places, only where it was not shown.
+    /// A line for each probability; with several places only where it was not shown, and without what it depends on only where it was
+    /// refuted.
     fn write_probabilities(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let is_grid = self.places().nth(1).is_some();
-        self.places().try_for_each(|place| {
-            let probabilities = place.tally().probabilities;
-            let told = probabilities.iter().filter(|it| !is_grid || it.count.verdict != TestVerdict::Met);
-            let at = place
-                .runs
-                .first()
-                .filter(|_| is_grid)
-                .map(|run| format!("ball at {}: ", metres_of(run.place)));
-            let at = at.unwrap_or_default();
-            let mut told = told.into_iter();
-            told.try_for_each(|probability| write!(f, "\n      {at}{probability}"))
-        })
+        let is_told = |verdict| match verdict {
+            TestVerdict::Met => !is_grid && self.without.is_none(),
+            TestVerdict::Missed => true,
+            TestVerdict::Undecided => self.without.is_none(),
+        };
+        for place in self.places() {
+            let at = place.runs.first().filter(|_| is_grid).map(|run| metres_of(run.place));
+            let at = at.map_or_else(String::new, |place| format!("ball at {place}: "));
+            for probability in place.tally().probabilities.iter().filter(|it| is_told(it.count.verdict)) {
+                write!(f, "\n      {at}{probability}")?;
+            }
+        }
+        Ok(())
     }
 }
 
