@@ -1,9 +1,11 @@
 //! The velocity of a walking robot, and what limits it.
 
+use bevy::prelude::*;
+
 use super::Walker;
 
 /// A velocity in the robot's own frame: m/s ahead and to the left, and rad/s counter-clockwise.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Reflect)]
 pub struct Gait {
     /// m/s.
     pub ahead: f32,

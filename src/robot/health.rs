@@ -1,9 +1,10 @@
 //! What is wrong with a robot: crashed, frozen, deaf or mute.
 
+use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// A robot's health: what works of it; all is well by default.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 pub struct Health {
     /// Its computer is off: it stands still, hears nothing, says nothing and decides nothing.
     pub crashed: bool,

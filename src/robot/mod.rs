@@ -47,13 +47,14 @@ use pilot::Pilot;
 
 /// What lies between body and mind: every robot has it, in this process or another.
 pub(crate) fn plugin(app: &mut App) {
-    app.match_component::<Robot>().starts(Robot::at_start);
+    app.match_component::<Robot>().reflected().starts(Robot::at_start);
     app.match_component::<Pilot>()
         .reflected()
         .may_start(|start: &RobotStart, _| start.piloted.then(Pilot::default));
     app.match_component::<OffPitch>();
-    app.match_component::<Orders>().starts(Orders::at_start);
+    app.match_component::<Orders>().reflected().starts(Orders::at_start);
     app.match_component::<Percepts>()
+        .reflected()
         .starts(|_: &RobotStart, _| Percepts::default())
         .on(|percepts, _: &PutDown, _| *percepts = Percepts::default())
         .on(|percepts, _: &SwitchedOn, _| *percepts = Percepts::default());
@@ -62,18 +63,20 @@ pub(crate) fn plugin(app: &mut App) {
         .on(|camera, set: &CameraSet, _| camera.set(set))
         .on(|camera, set: &ColoursSet, _| camera.set_colours(set));
     app.match_component::<Odometry>()
+        .reflected()
         .starts(|start: &RobotStart, _| Odometry::new(start.seed, start.id))
         .on(|odometry, stirred: &DiceStirred, _| odometry.stir(*stirred));
-    app.register_type::<RobotId>();
+    app.register_type::<RobotId>().register_type::<Trailer>();
     app.match_component::<SteeringIntent>()
         .reflected()
         .starts(|_: &RobotStart, _| SteeringIntent::Stop)
         .on(|intent, _: &PutDown, _| *intent = SteeringIntent::Stop)
         .on(|intent, _: &SwitchedOff, _| *intent = SteeringIntent::Stop);
     app.match_component::<KickIntent>().reflected().starts(|_: &RobotStart, _| KickIntent::Nothing);
-    app.match_component::<HeadIntent>().starts(|_: &RobotStart, _| HeadIntent::default());
+    app.match_component::<HeadIntent>().reflected().starts(|_: &RobotStart, _| HeadIntent::default());
     app.match_component::<Head>().reflected().starts(|_: &RobotStart, _| Head::default());
     app.match_component::<DriveCommand>()
+        .reflected()
         .starts(|start: &RobotStart, _| DriveCommand::idle(&start.kind))
         .on(DriveCommand::stop);
     app.match_component::<Footing>()
@@ -87,11 +90,14 @@ pub(crate) fn plugin(app: &mut App) {
 }
 
 /// A robot; its entity is its drive unit. Its health is changed by the Script stage only.
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Reflect)]
+#[reflect(Component, from_reflect = false)]
 pub struct Robot {
     /// What it is built as.
+    #[reflect(ignore)]
     pub kind: Arc<RobotKind>,
     /// How well it senses.
+    #[reflect(ignore)]
     pub sensing: Arc<Sensing>,
     /// What is wrong with it.
     pub health: Health,
@@ -131,7 +137,8 @@ impl Robot {
 }
 
 /// The trailer of a robot, a body of its own.
-#[derive(Component, Clone, Copy, Debug)]
+#[derive(Component, Clone, Copy, Debug, Reflect)]
+#[reflect(Component)]
 #[component(immutable)]
 pub struct Trailer {
     /// The robot that pulls it.
@@ -143,7 +150,8 @@ pub struct Trailer {
 }
 
 /// What a robot's motors are told, after the limits of acceleration. Written by the Drive stage.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Component)]
 pub enum DriveCommand {
     /// For two wheels.
     Wheels(WheelSpeeds),

@@ -9,7 +9,7 @@ use super::RobotStart;
 use crate::geometry::Pose;
 
 /// The state that a robot is told to be in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, Reflect)]
 pub enum RobotState {
     /// It stands until the match begins.
     #[default]
@@ -27,7 +27,8 @@ pub enum RobotState {
 }
 
 /// What a robot was told last; written by the Referee stage.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
+#[reflect(Component)]
 pub struct Orders {
     /// What the robot is to do.
     pub state: RobotState,

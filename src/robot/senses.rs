@@ -13,14 +13,15 @@ use crate::ids::{RobotId, Team};
 use crate::rng::{Dice, DiceStirred, Seed};
 
 /// What a robot's sensors say: the newest camera frame that has arrived.
-#[derive(Component, Clone, Debug, Default)]
+#[derive(Component, Clone, Debug, Default, Reflect)]
+#[reflect(Component)]
 pub struct Percepts {
     /// The newest frame of the camera, if one has come.
     pub frame: Option<Frame>,
 }
 
 /// One camera frame, worked out: egocentric sightings, and where the robot was by its own localisation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, Reflect)]
 pub struct Frame {
     /// The tick in which the shutter opened.
     pub taken: u64,
@@ -37,7 +38,7 @@ pub struct Frame {
 }
 
 /// A pose that a robot has worked out from one camera frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Reflect)]
 pub struct Fix {
     /// In the team frame.
     pub pose: Pose,
@@ -46,7 +47,8 @@ pub struct Fix {
 }
 
 /// What wheels or legs report: a dead-reckoned pose in a frame of its own, what they are told, and whether they are blocked.
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Reflect)]
+#[reflect(Component, from_reflect = false)]
 pub struct Odometry {
     /// Where the robot is by its own wheels or steps since the match began.
     pub pose: Pose,
@@ -57,10 +59,12 @@ pub struct Odometry {
     /// The fastest that a wheel or the legs are told to move, m/s.
     pub told: f32,
     /// Whether the drive is blocked, as far as it notices.
+    #[reflect(ignore)]
     pub bump: BumpSensor,
     /// Distance since the last error was drawn, m.
     pub unjudged: f32,
     /// The dice of its errors.
+    #[reflect(ignore)]
     pub dice: Dice,
 }
 

@@ -1,9 +1,11 @@
 //! The speeds of two driven wheels, and what limits them.
 
+use bevy::prelude::*;
+
 use super::DifferentialDrive;
 
 /// Ground speeds of the two driven wheels, m/s.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Reflect)]
 pub struct WheelSpeeds {
     /// m/s.
     pub left: f32,

@@ -40,7 +40,7 @@ pub(super) fn plugin(app: &mut App) {
     app.match_resource::<Channel>();
     app.match_resource::<Interference>().starts_empty();
     app.match_resource::<FaultRules>();
-    app.match_component::<InFlight>();
+    app.match_component::<InFlight>().reflected();
     let receives = deliver_datagrams.in_set(TickSystems::Deliver).before(TcmSystems::Receive);
     let sends = transmit_datagrams.in_set(TickSystems::Transmit).after(TcmSystems::Send);
     app.add_systems(Tick, (receives.in_set(RadioSystems), sends.in_set(RadioSystems)));

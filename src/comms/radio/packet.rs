@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy::prelude::Component;
+use bevy::prelude::{Component, Reflect, ReflectComponent};
 
 use crate::comms::messages::TeamMessage;
 use crate::comms::tcm::fragments::Header;
@@ -10,7 +10,8 @@ use crate::comms::tcm::{Data, DataType, Datagram};
 use crate::ids::RobotId;
 
 /// A datagram from one robot to one other.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Reflect)]
+#[reflect(from_reflect = false)]
 pub struct Packet {
     /// What the message is about of which it brings a piece.
     pub kind: DataType,
@@ -19,6 +20,7 @@ pub struct Packet {
     /// The receiver.
     pub to: RobotId,
     /// The length of the datagram.
+    #[reflect(ignore)]
     pub bytes: Arc<[u8]>,
 }
 
@@ -37,8 +39,9 @@ impl Packet {
 }
 
 /// A packet, or a second copy of it, on its way.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Reflect)]
 #[component(immutable)]
+#[reflect(Component, from_reflect = false)]
 pub struct InFlight {
     /// That of its [`Transmission`](super::Transmission).
     pub id: u64,

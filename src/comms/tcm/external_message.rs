@@ -3,6 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use bevy::prelude::Reflect;
 use serde::{Deserialize, Serialize};
 
 use crate::ids::{RobotId, Team};
@@ -56,7 +57,7 @@ pub enum Peer {
 pub struct Module(pub u8);
 
 /// What the data of a message are: the kind of the message. The numbers from [`DataType::FIRST_FREE`] on belong to users.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Reflect)]
 pub struct DataType(pub u16);
 
 /// A text that names no peer.

@@ -10,7 +10,8 @@ use crate::rng::Dice;
 use crate::strategy::{Assemblage, Combination, Influence, Strategy, Term};
 
 /// What each schema of the running assemblage wants, in the team frame, and the intent that followed.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component)]
 pub struct Contributions {
     /// In the order of the assemblage's terms, unweighted; of an assemblage in it, times how desirable that is.
     pub vectors: Vec<Vec2>,

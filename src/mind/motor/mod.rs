@@ -31,7 +31,7 @@ use crate::state::RegisterState;
 use crate::strategy::{Activity, State, Strategies, Turn};
 
 pub(super) fn plugin(app: &mut App) {
-    app.match_component::<Contributions>().starts(|_: &RobotStart, _| Contributions::default());
+    app.match_component::<Contributions>().reflected().starts(|_: &RobotStart, _| Contributions::default());
     app.match_component::<MotorDice>()
         .starts(|start: &RobotStart, _| MotorDice::new(start.seed, start.id))
         .on(|dice, stirred: &DiceStirred, _| dice.0.stir(*stirred));

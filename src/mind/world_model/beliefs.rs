@@ -21,7 +21,8 @@ use crate::robot::{
 };
 
 /// What a robot believes, in its team frame.
-#[derive(Component, Clone, Debug, Default)]
+#[derive(Component, Clone, Debug, Default, Reflect)]
+#[reflect(Component, from_reflect = false)]
 pub struct WorldModel {
     /// Where the robot believes it is itself, in the team frame.
     pub pose: Pose,
@@ -32,10 +33,12 @@ pub struct WorldModel {
     /// The team mates that have told where they are lately.
     pub mates: SmallVec<[MateBelief; 8]>,
     is_localised: bool,
+    #[reflect(ignore)]
     filter: Option<BallFilter>,
     /// Believed poses of the last decisions, oldest first: a frame is older than now.
     past: VecDeque<(u64, Pose)>,
     odometry: Option<Pose>,
+    #[reflect(ignore)]
     progress: Progress,
     last_frame: Option<u64>,
     misses: u32,
@@ -46,7 +49,7 @@ pub struct WorldModel {
 }
 
 /// A ball that a robot believes in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Reflect)]
 pub struct BallBelief {
     /// m
     pub position: Vec2,
@@ -57,7 +60,7 @@ pub struct BallBelief {
 }
 
 /// A team mate that has told where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Reflect)]
 pub struct MateBelief {
     /// The team mate's number.
     pub number: PlayerNumber,
@@ -72,7 +75,7 @@ pub struct MateBelief {
 }
 
 /// Another robot that a robot believes in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Reflect)]
 pub struct RobotBelief {
     /// The team that its marker shows.
     pub team: Team,

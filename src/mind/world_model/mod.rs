@@ -24,6 +24,7 @@ use crate::strategy::Strategies;
 
 pub(super) fn plugin(app: &mut App) {
     app.match_component::<WorldModel>()
+        .reflected()
         .starts(|start: &RobotStart, _| start.told.map_or_else(WorldModel::default, WorldModel::told))
         .on(|model, put: &PutDown, _| *model = WorldModel::told(put.told))
         .on(|model, _: &SwitchedOn, _| *model = WorldModel::default());

@@ -9,6 +9,8 @@ use crate::app::view::state::{Action, Playback};
 use crate::comms::radio::InFlight;
 
 const SIZE: egui::Vec2 = vec2(1600.0, 1000.0);
+/// So that all components of a robot are in sight.
+const TALL: egui::Vec2 = vec2(1600.0, 3000.0);
 
 /// A scenario of robots that swap roles, paused while a message of a swap is in flight, with the world open; and what that message
 /// is to be called.
@@ -59,4 +61,36 @@ fn what_a_person_looks_for_is_found_by_a_part_of_its_name() {
     window.frame_with(SIZE, 1.0, vec![egui::Event::Text("lock f".into())]);
     let frame = window.show(SIZE, 1.0);
     assert!(frame.shows(&message) && !frame.shows("trailer of home 1"), "{:?}", frame.texts);
+}
+
+#[test]
+fn what_robots_and_messages_are_made_of_is_shown_field_by_field() {
+    let (mut window, message) = open_world();
+    let open = |window: &mut LaidOutWindow, text: &str| {
+        let frame = window.show(TALL, 1.0);
+        let at = frame.place(text).unwrap_or_else(|| panic!("no {text} in {:?}", frame.texts));
+        window.click(TALL, at, PointerButton::Primary);
+        window.show(TALL, 1.0)
+    };
+    open(&mut window, "home 1");
+    for (component, field) in [
+        ("Robot", "crashed"),
+        ("Pose", "heading"),
+        ("Percepts", "frame"),
+        ("WorldModel", "mates"),
+        ("DriveCommand", "left"),
+        ("Orders", "state"),
+        ("Odometry", "turn_rate"),
+        ("Contributions", "vectors"),
+    ] {
+        let opened = open(&mut window, component);
+        assert!(opened.shows(field), "{field} of {component} in {:?}", opened.texts);
+        open(&mut window, component);
+    }
+    open(&mut window, "home 1");
+    open(&mut window, &message);
+    let opened = open(&mut window, "InFlight");
+    for field in ["due", "late", "packet"] {
+        assert!(opened.shows(field), "{field} in {:?}", opened.texts);
+    }
 }
