@@ -10,7 +10,9 @@ use super::file::StrategyFile;
 use super::pieces::Strategy;
 use super::resolve;
 use super::teamwork::TeamworkFile;
-use crate::data::{AssetFolder, AssetTexts, DataError, Field, Source};
+use crate::data::{
+    AssetFolder, AssetTexts, DataError, Field, NumberToken, Segment, Source, numbers, with_number,
+};
 use crate::pitch::Pitch;
 
 /// What came of reading a strategy.
@@ -36,6 +38,45 @@ pub struct StrategyTexts {
     pub path: PathBuf,
     /// Its own text and those of the strategies that it is based on.
     pub files: AssetTexts,
+}
+
+impl StrategyTexts {
+    /// The texts with another weight of a term of an assemblage, where the strategy finds it; none if no number says it.
+    pub fn with_weight(&self, assemblage: &str, term: usize, weight: f32) -> Option<StrategyTexts> {
+        let is_meant = |number: &NumberToken| {
+            let [Segment::Key(list), Segment::Key(name), Segment::Key(_), steps @ ..] =
+                number.field.segments()
+            else {
+                return false;
+            };
+            let [Segment::Index(0), Segment::Index(place), last] = steps else { return false };
+            let is_weight = match last {
+                Segment::Index(place) => *place == 0,
+                Segment::Key(key) => key == "weight",
+            };
+            list == "assemblages" && name == assemblage && *place == term && is_weight
+        };
+        let mut path = Some(&self.path);
+        // A base may not be based on what is based on it, so each file comes once.
+        for _ in 0..=self.files.len() {
+            let (known, text) = path.and_then(|path| self.files.get_key_value(path))?;
+            if let Some(number) = numbers(text).into_iter().find(is_meant) {
+                let mut changed = self.clone();
+                changed.files.insert(known.clone(), with_number(text, &number, f64::from(weight)));
+                return Some(changed);
+            }
+            path = self.base_of(known, text);
+        }
+        None
+    }
+
+    /// The file that another one names as its base.
+    fn base_of(&self, path: &Path, text: &str) -> Option<&PathBuf> {
+        let file: StrategyFile = Source::new(path, text).parse().ok()?;
+        let base = file.based_on?;
+        let stem = Path::new(&base).file_stem()?;
+        self.files.keys().find(|known| known.as_path() != path && known.file_stem() == Some(stem))
+    }
 }
 
 /// What a match or a scenario says of a strategy's teamwork in place of the strategy, and where it says so.

@@ -30,9 +30,12 @@ pub(super) fn change_strategies(
             }
             Request::SetWeight { team, assemblage, term, weight } if weight.is_finite() => {
                 let strategy = Arc::make_mut(&mut strategies.0[team.index()]);
-                let assemblage = strategy.assemblages.get_mut(*assemblage);
-                if let Some(term) = assemblage.and_then(|found| found.terms.get_mut(*term)) {
-                    term.weight = Bound::WEIGHT.clamp(*weight);
+                let Some(assemblage) = strategy.assemblages.get_mut(*assemblage) else { continue };
+                let Some(found) = assemblage.terms.get_mut(*term) else { continue };
+                found.weight = Bound::WEIGHT.clamp(*weight);
+                let texts = &mut sources.0[team.index()];
+                if let Some(changed) = texts.with_weight(&assemblage.name, *term, found.weight) {
+                    *texts = Arc::new(changed);
                 }
             }
             _ => {}

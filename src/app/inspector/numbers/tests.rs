@@ -129,6 +129,33 @@ fn a_number_is_typed_runs_from_the_next_tick_on_and_is_undone() {
 }
 
 #[test]
+fn a_weight_that_a_slider_has_set_is_a_number_of_the_text_and_stays_when_another_is_typed() {
+    const WEIGHT: &str = "assemblages.acquire.WeightedSum[0][1][0]";
+    let folder = tempfile::tempdir().unwrap();
+    let mut tuning = Tuning::of(folder.path());
+    let (speed, _) = speed(folder.path());
+    let in_force = |tuning: &Tuning| {
+        let strategy = &tuning.game.world().resource::<Strategies>().0[0];
+        let acquire = strategy.assemblages.iter().position(|found| found.name == "acquire").unwrap();
+        (acquire, strategy.assemblages[acquire].terms[1].weight)
+    };
+    let (assemblage, filed) = in_force(&tuning);
+    assert_eq!(tuning.running(WEIGHT) as f32, filed);
+    let slid = Request::SetWeight { team: Team::Home, assemblage, term: 1, weight: 0.75 };
+    tuning.game.world_mut().resource_mut::<Requests>().ask(slid);
+    tuning.game.tick();
+    assert_eq!((tuning.running(WEIGHT), in_force(&tuning).1), (0.75, 0.75));
+    assert!(says(&tuning.frame(Vec::new()), "changed (1)"));
+    tuning.type_number(&speed, "0.25");
+    tuning.game.tick();
+    assert_eq!((tuning.running(&speed), in_force(&tuning).1), (0.25, 0.75));
+    tuning.click_on("Save");
+    let saved = numbers(&fs::read_to_string(folder.path().join(FILE)).unwrap());
+    let saved = saved.iter().find(|number| number.field.to_string() == WEIGHT);
+    assert_eq!(saved.map(|number| number.value), Some(0.75));
+}
+
+#[test]
 fn a_number_that_no_file_may_have_is_told_and_not_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let mut tuning = Tuning::of(folder.path());

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use bevy_egui::egui::{self, RichText};
 
-use super::rows::{NumberRow, changed, rows};
+use super::rows::{FoundNumbers, NumberRow, changed};
 use super::save::save;
 use crate::app::inspector::tuner::{RESET, ROW};
 use crate::app::view::colours;
@@ -21,6 +21,7 @@ pub struct NumberDesk {
     pub filter: String,
     /// Only those that differ from their files.
     pub only_changed: bool,
+    found: FoundNumbers,
     /// What ran before each change, oldest first.
     undo: Vec<(Team, Arc<StrategyTexts>)>,
     /// What came of the last change, and whether it is bad.
@@ -51,12 +52,14 @@ enum Wish {
 const HEIGHT: f32 = 300.0;
 /// Width of a number, in points.
 const NUMBER: f32 = 76.0;
+/// The fraction of one that a number shows.
+const DECIMALS: f64 = 1e4;
 
 /// Draws all numbers of a team's strategy, and asks for what is changed.
 pub fn draw(ui: &mut egui::Ui, texts: RunningTexts, desk: &mut NumberDesk, requests: &mut Requests) {
     let running = asked(&texts, requests).unwrap_or_else(|| texts.running.clone());
     let filed = &texts.plan.team(texts.team).strategy_texts;
-    let all = rows(&running, filed);
+    let all = desk.found.of(&running, filed);
     let mut wish = draw_toolbar(ui, &all, texts.team, desk);
     if let Some((line, is_bad)) = &desk.told {
         let colour = if *is_bad { ui.visuals().error_fg_color } else { ui.visuals().weak_text_color() };
@@ -65,7 +68,7 @@ pub fn draw(ui: &mut egui::Ui, texts: RunningTexts, desk: &mut NumberDesk, reque
     let wanted = desk.filter.to_lowercase();
     let shown: Vec<usize> = (0..all.len())
         .filter(|place| !desk.only_changed || all[*place].differs())
-        .filter(|place| all[*place].number.field.to_string().to_lowercase().contains(&wanted))
+        .filter(|place| wanted.is_empty() || all[*place].path.to_lowercase().contains(&wanted))
         .collect();
     egui::ScrollArea::vertical().max_height(HEIGHT).auto_shrink([false, true]).show_rows(
         ui,
@@ -105,7 +108,7 @@ fn draw_toolbar(ui: &mut egui::Ui, all: &[NumberRow], team: Team, desk: &mut Num
     let mut wish = None;
     ui.horizontal(|ui| {
         let hint = format!("find among {} numbers", all.len());
-        ui.add(egui::TextEdit::singleline(&mut desk.filter).hint_text(hint).desired_width(150.0));
+        ui.add(egui::TextEdit::singleline(&mut desk.filter).hint_text(hint).desired_width(174.0));
         let changed = ui.checkbox(&mut desk.only_changed, format!("changed ({differ})"));
         changed.on_hover_text("Only the numbers that differ from their files");
         let can_undo = desk.undo.iter().any(|(of, _)| *of == team);
@@ -127,16 +130,22 @@ fn draw_row(ui: &mut egui::Ui, place: usize, row: &NumberRow, desk: &mut NumberD
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let room = (ui.available_width() - NUMBER - RESET - 2.0 * 4.0).max(60.0);
-        let path = RichText::new(row.number.field.to_string());
+        let path = RichText::new(&row.path);
         let path = if row.differs() { path.color(colours::egui(colours::CHANGED)) } else { path };
         let file = row.file.display();
         let label = egui::Label::new(path).truncate().selectable(false);
-        ui.add_sized([room, ROW], label).on_hover_text(format!("{}\n{file}", row.number.field));
+        let (size, from_the_left) = (egui::vec2(room, ROW), egui::Layout::left_to_right(egui::Align::Center));
+        let name = ui.allocate_ui_with_layout(size, from_the_left, |ui| {
+            ui.set_min_size(size);
+            ui.add(label)
+        });
+        name.inner.on_hover_text(format!("{}\n{file}", row.path));
         let held = desk.held.filter(|(held, _)| *held == place).map(|(_, value)| value);
         let mut value = held.unwrap_or(row.number.value);
         let number = egui::DragValue::new(&mut value)
             .speed(speed(row))
             .max_decimals(if row.number.is_whole { 0 } else { 4 })
+            .custom_formatter(|value, _| as_written(value))
             .update_while_editing(false);
         let number = ui.add_sized([NUMBER, ROW], number);
         if number.dragged() {
@@ -153,6 +162,12 @@ fn draw_row(ui: &mut egui::Ui, place: usize, row: &NumberRow, desk: &mut NumberD
         }
     });
     set
+}
+
+/// As short as a file would say it, with the minus sign of other figures.
+fn as_written(value: f64) -> String {
+    let rounded = (value * DECIMALS).round() / DECIMALS + 0.0;
+    format!("{rounded}").replace('-', "−")
 }
 
 /// A hundredth of the number for a point that it is dragged.
