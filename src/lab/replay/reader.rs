@@ -1,5 +1,6 @@
 //! Reading a replay.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::block::{Block, Bookmark};
@@ -84,11 +85,11 @@ impl Replay {
         self.blocks.last().map(|block| block.digest)
     }
 
-    /// What people noted, by tick.
+    /// What people noted, by tick: of each the last note, unless that is empty.
     pub fn bookmarks(&self) -> Vec<Bookmark> {
-        let mut bookmarks: Vec<_> = self.blocks.iter().flat_map(|block| &block.bookmarks).cloned().collect();
-        bookmarks.sort_by_key(|bookmark| bookmark.tick);
-        bookmarks
+        let all = self.blocks.iter().flat_map(|block| &block.bookmarks);
+        let last: BTreeMap<u64, &Bookmark> = all.map(|bookmark| (bookmark.tick, bookmark)).collect();
+        last.into_values().filter(|bookmark| !bookmark.note.is_empty()).cloned().collect()
     }
 
     /// The traces of all ticks.

@@ -16,8 +16,8 @@ use crate::clock::{Clock, TICK_HZ};
 use crate::game::record::{Record, TickTrace};
 use crate::game::requests::Requests;
 
-/// Blocks between two with hashes of all state: those take a few milliseconds.
-const STATES_EVERY: usize = 10;
+/// Seconds between two hashes of all state: those take a few milliseconds.
+const STATES_EVERY: u64 = 10;
 
 /// Writes a replay while the match is played.
 #[derive(Resource, Debug)]
@@ -52,6 +52,9 @@ impl Recorder {
     }
 
     fn rewrite(mut replay: Replay) -> io::Result<Recorder> {
+        let bookmarks = replay.bookmarks();
+        replay.blocks.iter_mut().for_each(|block| block.bookmarks.clear());
+        replay.blocks.retain(|block| block.traces.len() > 0);
         let mut bytes = first_line().into_bytes();
         bytes.extend(frame::write(&replay.header)?);
         for block in replay.blocks.iter().filter(|block| block.is_full()) {
@@ -61,7 +64,9 @@ impl Recorder {
         file.write_all(&bytes)?;
         let ticks = replay.ticks();
         let block = replay.blocks.pop_if(|block| !block.is_full()).unwrap_or_default();
-        Ok(Recorder { file, written: replay, block, ticks })
+        let mut recorder = Recorder { file, written: replay, block, ticks };
+        bookmarks.into_iter().try_for_each(|bookmark| recorder.mark(bookmark))?;
+        Ok(recorder)
     }
 
     /// Records the tick that was just played. One that is recorded already, as after a look back, is passed over.
@@ -81,15 +86,24 @@ impl Recorder {
         if !self.block.is_full() {
             return Ok(());
         }
-        if self.written.blocks.len() % STATES_EVERY == STATES_EVERY - 1 {
+        if self.ticks.is_multiple_of(STATES_EVERY * TICK_HZ as u64) {
             self.block.states = Some(hashes(world).0);
         }
         self.write()
     }
 
-    /// Notes something about a tick.
-    pub fn mark(&mut self, bookmark: Bookmark) {
-        self.block.bookmarks.push(bookmark);
+    /// Notes something about a tick, in the file at once: time may stand still. An empty note takes the one before away.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn mark(&mut self, bookmark: Bookmark) -> io::Result<()> {
+        let digest = self.written.digest().unwrap_or_default();
+        self.append(Block { bookmarks: vec![bookmark], digest, ..Block::default() })
+    }
+
+    /// What was noted, by tick.
+    pub fn bookmarks(&self) -> Vec<Bookmark> {
+        self.written.bookmarks()
     }
 
     /// How many ticks are recorded.
@@ -114,9 +128,13 @@ impl Recorder {
         self.write()
     }
 
-    /// One frame in one call: it is in the file or it is not.
     fn write(&mut self) -> io::Result<()> {
         let block = take(&mut self.block);
+        self.append(block)
+    }
+
+    /// One frame in one call: it is in the file or it is not.
+    fn append(&mut self, block: Block) -> io::Result<()> {
         let written = frame::write(&block).and_then(|bytes| self.file.write_all(&bytes));
         self.written.blocks.push(block);
         written
@@ -144,7 +162,7 @@ impl Replay {
             block.requests.retain(|(of, _)| *of < tick);
             block.bookmarks.retain(|bookmark| bookmark.tick <= tick);
         }
-        self.blocks.retain(|block| block.traces.len() > 0);
+        self.blocks.retain(|block| block.traces.len() > 0 || !block.bookmarks.is_empty());
         self
     }
 }

@@ -256,10 +256,19 @@ fn a_branch_has_what_came_before_it_and_goes_on_in_a_file_of_its_own() {
         other.tick();
         branch.note(other.world_mut()).unwrap();
     }
-    branch.mark(Bookmark { tick: 230, note: "it fails".into() });
+    let noted = |tick, note: &str| Bookmark { tick, note: note.into() };
+    for bookmark in [noted(230, "?"), noted(12, "away with it"), noted(230, "it fails"), noted(12, "")] {
+        branch.mark(bookmark).unwrap();
+    }
+    // A program that dies now has written them.
+    assert_eq!(Replay::read(&beside).unwrap().bookmarks(), [noted(230, "it fails")]);
+    let third = folder.path().join("c.replay");
+    assert_eq!(branch.branch(235, &third).unwrap().bookmarks(), [noted(230, "it fails")]);
+    assert_eq!(Replay::read(&third).unwrap().bookmarks(), [noted(230, "it fails")]);
+    assert_eq!(branch.branch(225, &third).unwrap().bookmarks(), []);
     branch.finish().unwrap();
     let replay = Replay::read(&beside).unwrap();
-    assert_eq!(replay.bookmarks(), [Bookmark { tick: 230, note: "it fails".into() }]);
+    assert_eq!(replay.bookmarks(), [noted(230, "it fails")]);
     let (again, parting) = play(&replay, |_| {});
     assert_eq!((again.clock().tick, parting), (330, Ok(())));
     game.tick();

@@ -3,10 +3,12 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use bevy::prelude::*;
+use bevy::time::common_conditions::on_real_timer;
 
-use crate::app::view::state::{AfterTick, FileError, MatchBegun, Session};
+use crate::app::view::state::{AfterTick, FileError, FrameSystems, MatchBegun, Session};
 use crate::lab::replay::{Bookmark, Recorder};
 use crate::lab::rewind::{BranchId, Rewind};
 
@@ -14,8 +16,12 @@ pub(super) fn plugin(app: &mut App) {
     app.init_resource::<Recording>()
         .add_observer(begin)
         .add_systems(AfterTick, note)
+        .add_systems(Update, note_bookmarks.in_set(FrameSystems::Picture).run_if(on_real_timer(INTERVAL)))
         .add_systems(Last, finish.run_if(on_message::<AppExit>));
 }
+
+/// Time after which new bookmarks are in the file, whether or not the match goes on.
+const INTERVAL: Duration = Duration::from_millis(500);
 
 /// Where matches are recorded, and the recording of the one that is played.
 #[derive(Resource, Debug, Default)]
@@ -38,11 +44,9 @@ impl Recording {
     fn close(&mut self, rewind: Option<&Rewind>) -> Option<String> {
         self.present = BranchId::default();
         let finish = |(branch, mut recorder): (BranchId, Recorder)| {
-            for (tick, note) in rewind.iter().flat_map(|rewind| rewind.bookmarks(branch)) {
-                recorder.mark(Bookmark { tick, note: note.to_owned() });
-            }
             let path = recorder.path().to_owned();
-            recorder.finish().err().map(|error| cannot_write(&path, &error))
+            let marked = rewind.map_or(Ok(()), |rewind| mark(&mut recorder, rewind, branch));
+            marked.and_then(|()| recorder.finish()).err().map(|error| cannot_write(&path, &error))
         };
         let recorders = std::mem::take(&mut self.recorders);
         let errors: Vec<String> = recorders.into_iter().filter_map(finish).collect();
@@ -93,6 +97,30 @@ fn numbered(path: &Path, number: usize) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let extension = path.extension().map(|it| format!(".{}", it.to_string_lossy()));
     path.with_file_name(format!("{stem}-{number}{}", extension.unwrap_or_default()))
+}
+
+/// Brings the bookmarks of a recording up to those of its branch.
+fn mark(recorder: &mut Recorder, rewind: &Rewind, branch: BranchId) -> std::io::Result<()> {
+    let known: BTreeMap<u64, String> =
+        recorder.bookmarks().into_iter().map(|bookmark| (bookmark.tick, bookmark.note)).collect();
+    let now: BTreeMap<u64, &str> = rewind.bookmarks(branch).collect();
+    let gone = known.keys().filter(|tick| !now.contains_key(tick)).map(|tick| (*tick, ""));
+    let new = now.iter().filter(|(tick, note)| known.get(*tick).map(String::as_str) != Some(**note));
+    let changed: Vec<(u64, &str)> = gone.chain(new.map(|(tick, note)| (*tick, *note))).collect();
+    changed.into_iter().try_for_each(|(tick, note)| recorder.mark(Bookmark { tick, note: note.to_owned() }))
+}
+
+fn note_bookmarks(
+    mut recording: ResMut<Recording>,
+    rewind: Option<Res<Rewind>>,
+    mut file_error: ResMut<FileError>,
+) {
+    let Some(rewind) = rewind else { return };
+    for (branch, recorder) in &mut recording.recorders {
+        if let Err(error) = mark(recorder, &rewind, *branch) {
+            file_error.0 = Some(cannot_write(recorder.path(), &error));
+        }
+    }
 }
 
 fn note(world: &mut World) {
