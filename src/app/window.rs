@@ -1,5 +1,7 @@
 //! The window: puts view and inspector together, opens them, and tells how it ended.
 
+mod frame_rate;
+
 use std::path::PathBuf;
 
 use bevy::app::PluginGroupBuilder;
@@ -29,10 +31,18 @@ pub enum WindowEnd {
 }
 
 /// Opens the window and returns how it ended: begins at the menu, or in the match if one is wanted.
-/// What is played is recorded, if a file for it is given.
-pub fn open_window(assets: &AssetFolder, wanted: Option<MatchRequest>, record: Option<PathBuf>) -> WindowEnd {
+/// What is played is recorded, if a file for it is given; the frame rate is told, if that is wanted.
+pub fn open_window(
+    assets: &AssetFolder,
+    wanted: Option<MatchRequest>,
+    record: Option<PathBuf>,
+    tells_frame_rate: bool,
+) -> WindowEnd {
     let mut app = App::new();
     app.add_plugins(default_plugins("Touchline"));
+    if tells_frame_rate {
+        app.add_plugins(frame_rate::plugin);
+    }
     app.add_plugins((EguiPlugin::default(), crate::game::simulation, view::plugin, inspector::plugin));
     app.insert_resource(Folder(assets.clone()));
     app.insert_resource(PendingMatch(wanted));

@@ -35,6 +35,9 @@ pub(super) struct PlayCommand {
     /// The robot that you drive, such as `away:3`.
     #[arg(long, value_name = "ROBOT")]
     pilot: Option<RobotId>,
+    /// Draw as fast as it goes, without waiting for the screen, and say each second how many frames that was.
+    #[arg(long)]
+    frame_rate: bool,
 }
 
 impl PlayCommand {
@@ -46,7 +49,12 @@ impl PlayCommand {
         let Some(missing) = windows::missing() else {
             MatchPlan::read(assets, &choice)?;
             let wanted = self.chooses(&choice).then_some(MatchRequest::Match(choice));
-            return Ok(windows::open_match_window(assets, wanted, self.record.record.clone()));
+            return Ok(windows::open_match_window(
+                assets,
+                wanted,
+                self.record.record.clone(),
+                self.frame_rate,
+            ));
         };
         if self.pilot.is_some() {
             return Err(
@@ -76,7 +84,12 @@ impl PlayCommand {
         let seed = self.seed.seed;
         let Some(missing) = windows::missing() else {
             let wanted = MatchRequest::Scenario { scenario, seed };
-            return Ok(windows::open_match_window(assets, Some(wanted), self.record.record.clone()));
+            return Ok(windows::open_match_window(
+                assets,
+                Some(wanted),
+                self.record.record.clone(),
+                self.frame_rate,
+            ));
         };
         let mut interrupt = Interrupt::listen();
         if self.record.record.is_some() {

@@ -44,6 +44,7 @@ impl ReplayCommand {
                 assets,
                 Some(MatchRequest::Replay(self.file.clone())),
                 None,
+                false,
             ));
         }
         let (started, interrupt) = (Instant::now(), Interrupt::listen());

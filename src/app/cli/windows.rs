@@ -18,13 +18,14 @@ mod with_windows {
     use crate::game::MatchPlan;
     use crate::game::net::chaos::ChaosLink;
 
-    /// What is played is recorded, if a file for it is given.
+    /// What is played is recorded, if a file for it is given. The frame rate is told, if that is wanted.
     pub fn open_match_window(
         assets: &AssetFolder,
         wanted: Option<MatchRequest>,
         record: Option<PathBuf>,
+        frame_rate: bool,
     ) -> Ending {
-        ending(crate::app::window::open_window(assets, wanted, record))
+        ending(crate::app::window::open_window(assets, wanted, record, frame_rate))
     }
 
     pub fn open_chaos_window(assets: &AssetFolder, link: ChaosLink, game: Option<&MatchPlan>) -> Ending {
@@ -56,7 +57,12 @@ mod without_windows {
         Some("this build has no window")
     }
 
-    pub fn open_match_window(_: &AssetFolder, _: Option<MatchRequest>, _: Option<PathBuf>) -> Ending {
+    pub fn open_match_window(
+        _: &AssetFolder,
+        _: Option<MatchRequest>,
+        _: Option<PathBuf>,
+        _: bool,
+    ) -> Ending {
         Ending::WindowFailed
     }
 

@@ -10,10 +10,11 @@ use smallvec::SmallVec;
 use crate::app::view::format;
 use crate::app::view::state::Selected;
 use crate::clock::Clock;
+use crate::comms::radio::Interference;
 use crate::geometry::{Attacking, Pose, Twist};
 use crate::ids::RobotId;
 use crate::mind::motor::Contributions;
-use crate::mind::teamwork::{Booking, TeamModel};
+use crate::mind::teamwork::{Booking, Swapping, TeamModel};
 use crate::mind::world_model::WorldModel;
 use crate::pitch::BallKind;
 use crate::pitch::Pitch;
@@ -34,6 +35,7 @@ pub struct Subject {
     pub role: &'static Role,
     pub activity: &'static Activity,
     pub pose: &'static Pose,
+    pub twist: &'static Twist,
     pub model: &'static WorldModel,
     pub percepts: &'static Percepts,
     pub eyesight: &'static Eyesight,
@@ -46,6 +48,7 @@ pub struct Subject {
     pub orders: &'static Orders,
     pub team_model: &'static TeamModel,
     pub booking: Option<&'static Booking>,
+    pub swapping: Option<&'static Swapping>,
     pub piloted: Has<Pilot>,
     pub off_pitch: Has<OffPitch>,
 }
@@ -58,6 +61,7 @@ pub struct InspectedMatch<'w, 's> {
     pub strategies: Res<'w, Strategies>,
     pub pitch: Res<'w, Pitch>,
     pub selected: Res<'w, Selected>,
+    interference: Res<'w, Interference>,
     subjects: Query<'w, 's, Subject>,
     kind: Res<'w, BallKind>,
     ball: Query<'w, 's, (Entity, &'static Pose, &'static Twist), With<Ball>>,
@@ -79,6 +83,8 @@ pub struct SelectedRobot<'a> {
     pub state: &'a MatchState,
     pub clock: Clock,
     pub ends: Attacking,
+    /// Whether the radio reaches it no more.
+    pub cut_off: bool,
     /// Where it truly is, in its team frame.
     pub pose: Pose,
     pub ball: Option<TrueBall>,
@@ -108,6 +114,7 @@ impl InspectedMatch<'_, '_> {
             state: &self.state,
             clock: *self.clock,
             ends,
+            cut_off: self.interference.cut_off.contains(&id),
             pose: ends.turn_pose(placed(of.entity, *of.pose)),
             ball: self.ball.iter().next().map(|(entity, pose, twist)| TrueBall {
                 position: ends.turn(placed(entity, *pose).position),

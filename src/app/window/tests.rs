@@ -6,6 +6,7 @@ mod laid_out;
 mod rewind;
 mod silent_robots;
 mod states;
+mod stories;
 mod why;
 mod world;
 

@@ -31,6 +31,8 @@ pub enum MatchEventKind {
     Call(Decision),
     /// A robot has taken another role.
     RoleTaken { robot: RobotId, role: String },
+    /// A robot has the role back that it had when it gave its lock: a swap is rolled back.
+    RolledBack { robot: RobotId, role: String },
     /// A robot has booked the ball and goes to it.
     Booked { robot: RobotId },
     /// A robot gave its lock and kept its role: the attempt to swap roles has come to nothing.
@@ -46,6 +48,7 @@ impl MatchEventKind {
             MatchEventKind::Call(Decision::Goal { by, .. }) => Some(*by),
             MatchEventKind::Call(_) => None,
             MatchEventKind::RoleTaken { robot, .. }
+            | MatchEventKind::RolledBack { robot, .. }
             | MatchEventKind::Booked { robot }
             | MatchEventKind::LockLost { robot, .. }
             | MatchEventKind::Crashed { robot } => Some(robot.team),
@@ -58,6 +61,9 @@ impl fmt::Display for MatchEventKind {
         match self {
             MatchEventKind::Call(decision) => decision.fmt(f),
             MatchEventKind::RoleTaken { robot, role } => write!(f, "{robot} takes the role {role}"),
+            MatchEventKind::RolledBack { robot, role } => {
+                write!(f, "{robot} has its role {role} back: the swap is rolled back")
+            }
             MatchEventKind::Booked { robot } => write!(f, "{robot} books the ball"),
             MatchEventKind::LockLost { robot, by } => {
                 write!(f, "{robot} loses the lock of {} {by}: no swap", robot.team)
@@ -118,7 +124,13 @@ impl RobotThen {
         if self.role != before.role
             && let Some(role) = strategies.of(robot.team).roles.get(self.role)
         {
-            happened.push(MatchEventKind::RoleTaken { robot, role: role.name.clone() });
+            let role = role.name.clone();
+            let is_back = before.lock.is_some_and(|(_, given_in)| given_in == self.role);
+            happened.push(if is_back {
+                MatchEventKind::RolledBack { robot, role }
+            } else {
+                MatchEventKind::RoleTaken { robot, role }
+            });
         }
         if let Some((lock, role)) = before.lock
             && self.lock.is_none_or(|(now, _)| now != lock)

@@ -112,6 +112,20 @@ impl Rewind {
         })
     }
 
+    /// The nearest tick before or after another in which something happened in the present branch or which has a bookmark, and what
+    /// it was. Nothing is known yet of ticks that have not been played.
+    pub fn nearest_event(&self, tick: u64, ahead: bool) -> Option<(u64, String)> {
+        let events = self.events(self.present).map(|event| (event.tick, event.what.to_string()));
+        let notes = self.bookmarks(self.present).map(|(tick, note)| (tick, note.to_owned()));
+        let all = events.chain(notes);
+        if ahead {
+            let known = tick + 1..=self.end();
+            all.filter(|(of, _)| known.contains(of)).min_by_key(|(of, _)| *of)
+        } else {
+            all.filter(|(of, _)| *of < tick).max_by_key(|(of, _)| *of)
+        }
+    }
+
     /// The notes of people in a branch and in those that it has come from, with their ticks.
     pub fn bookmarks(&self, branch: BranchId) -> impl Iterator<Item = (u64, &str)> {
         self.lineage(branch).flat_map(move |(id, until)| {

@@ -162,15 +162,15 @@ impl ChartScene<'_> {
         let route = &self.layout.lines[line];
         let is_dead = self.heat.is_some() && self.heat_of_line(line).is_none();
         if self.graph.lines[line].ways.is_empty() || is_dead {
-            let dotted = route
-                .pieces
-                .iter()
-                .flat_map(|piece| (0..=STEPS).map(|step| along(*piece, step as f32 / STEPS as f32)));
-            let dotted: Vec<Pos2> = dotted.map(|at| seen.to_screen(at)).collect();
-            if is_dead {
-                painter.extend(Shape::dashed_line(&dotted, stroke, 5.0, 4.0));
-            } else {
-                painter.extend(Shape::dotted_line(&dotted, stroke.color, 4.0, 1.0));
+            // Between two pieces is the condition.
+            for piece in &route.pieces {
+                let along = (0..=STEPS).map(|step| along(*piece, step as f32 / STEPS as f32));
+                let points: Vec<Pos2> = along.map(|at| seen.to_screen(at)).collect();
+                if is_dead {
+                    painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
+                } else {
+                    painter.extend(Shape::dotted_line(&points, stroke.color, 4.0, 1.0));
+                }
             }
         } else {
             for piece in &route.pieces {

@@ -26,15 +26,16 @@ const NEAR: f32 = 5.0;
 const CROWDED: usize = 150;
 const MANY: usize = 700;
 
+/// Shows the page; the tick to go to, if a person wants to.
 pub fn show(
     ui: &mut egui::Ui,
     robots: &[(RobotId, Health)],
     heard: &RadioData,
     view: &mut RadioView,
     requests: &mut Requests,
-) {
+) -> Option<u64> {
     show_filters(ui, view);
-    message_row::show(ui, heard, view, requests);
+    let wanted = message_row::show(ui, heard, view, requests);
     let lanes: Vec<RobotId> = robots.iter().map(|(robot, _)| *robot).collect();
     let (axes, response) = show_lanes(ui, lanes.len(), heard, view);
     show_names(ui, response.rect, &axes, robots, view);
@@ -53,6 +54,7 @@ pub fn show(
     if let Some(told) = told.or(told_of_lock) {
         response.on_hover_text_at_pointer(told);
     }
+    wanted
 }
 
 /// The time that is shown, and the kinds of messages.
@@ -174,11 +176,13 @@ fn paint_messages<'a>(
     for (message, arrow) in &arrows {
         paint_arrow(painter, message, arrow, many);
     }
-    if !many {
-        paint_labels(painter, axes, &arrows);
-    }
+    let labels = if many { Vec::new() } else { paint_labels(painter, axes, &arrows) };
     let clicked = arrows.iter().find(|(message, _)| Some(message.id) == view.message);
-    let pointed = pointed.map(|(_, message, arrow)| (message, arrow));
+    let of_label = || {
+        let (_, place) = labels.iter().find(|(label, _)| pointer.is_some_and(|at| label.contains(at)))?;
+        arrows.get(*place).map(|(message, arrow)| (*message, arrow))
+    };
+    let pointed = pointed.map(|(_, message, arrow)| (message, arrow)).or_else(of_label);
     for (_, arrow) in clicked.map(|(message, arrow)| (*message, arrow)).into_iter().chain(pointed) {
         painter.line_segment([arrow.from, arrow.to], (3.0, colours::egui(colours::PILOT)));
     }
@@ -229,17 +233,23 @@ fn cross(painter: &egui::Painter, at: Pos2, colour: Color32) {
     painter.line_segment([at + vec2(-3.5, 3.5), at + vec2(3.5, -3.5)], stroke);
 }
 
-/// Role swaps first and the newest first; a message to the whole team has one label.
-fn paint_labels(painter: &egui::Painter, axes: &Axes, arrows: &[(&Transmission, Arrow)]) {
+/// Role swaps first and the newest first; a message to the whole team has one label. Where labels are, and of which arrow each is.
+fn paint_labels(
+    painter: &egui::Painter,
+    axes: &Axes,
+    arrows: &[(&Transmission, Arrow)],
+) -> Vec<(Rect, usize)> {
     let mut labels = Labels::default();
+    let mut painted = Vec::new();
     let font = egui::FontId::proportional(TEXT);
     for important in [true, false] {
         if !important && arrows.len() > CROWDED {
             break;
         }
         let mut last = None;
-        for (message, arrow) in
-            arrows.iter().filter(|(message, _)| is_of_a_swap(message.packet.kind) == important)
+        let numbered = arrows.iter().enumerate();
+        for (number, (message, arrow)) in
+            numbered.filter(|(_, (message, _))| is_of_a_swap(message.packet.kind) == important)
         {
             let text = words::label(message);
             let what = (text.clone(), message.packet.from, message.sent);
@@ -249,9 +259,11 @@ fn paint_labels(painter: &egui::Painter, axes: &Axes, arrows: &[(&Transmission, 
             let galley = painter.layout_no_wrap(text, font.clone(), colour(message, arrow.end));
             let size = galley.size() + vec2(4.0, -2.0);
             let Some(place) = labels.place(arrow, size, axes.rect, important) else { continue };
-            painter.rect_filled(place, 2.0, Color32::from_black_alpha(170));
+            painter.rect_filled(place, 2.0, Color32::from_black_alpha(225));
             let at = place.center() - galley.size() / 2.0;
             painter.galley(at, galley, Color32::WHITE);
+            painted.push((place, number));
         }
     }
+    painted
 }

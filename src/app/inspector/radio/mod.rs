@@ -22,7 +22,7 @@ use bevy_egui::{EguiPrimaryContextPass, egui};
 use data::{RadioData, RadioPage};
 
 use super::low_panel::{LowDock, LowPanel};
-use crate::app::view::state::{Overlay, PanelSystems, Screen, shows};
+use crate::app::view::state::{Action, Overlay, PanelSystems, Screen, shows};
 use crate::game::requests::Requests;
 use crate::ids::Team;
 
@@ -51,10 +51,12 @@ fn dock(
     heard: RadioData,
     mut view: ResMut<RadioView>,
     mut requests: ResMut<Requests>,
+    mut actions: MessageWriter<Action>,
 ) -> Result {
     let team = heard.selected.0.map(|robot| robot.team).or(view.team).unwrap_or(Team::Home);
     view.team = Some(team);
     let robots = heard.team(team);
+    let mut wanted = None;
     let toolbar = |ui: &mut egui::Ui, (view, requests): &mut (&mut RadioView, &mut Requests)| {
         toolbar::show(ui, team, &heard, view, requests);
     };
@@ -62,11 +64,13 @@ fn dock(
         egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.set_min_width(WIDTH);
             match view.page {
-                RadioPage::Messages => chart::show(ui, &robots, &heard, view, requests),
+                RadioPage::Messages => wanted = chart::show(ui, &robots, &heard, view, requests),
                 RadioPage::Bookings => bookings::show(ui, team, &robots, &heard, view),
                 RadioPage::Robots => robots::show(ui, &robots, &heard, requests),
             }
         });
     };
-    dock.show(PANEL, &mut (&mut *view, &mut *requests), toolbar, page)
+    let shown = dock.show(PANEL, &mut (&mut *view, &mut *requests), toolbar, page);
+    actions.write_batch(wanted.map(Action::GoTo));
+    shown
 }

@@ -2,13 +2,16 @@
 
 use bevy_egui::egui::{self, RichText};
 
+use super::movement::Movement;
 use super::panel_actions::{PanelActions, close_button};
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::inspector::table;
 use crate::app::view::picture::labels::off_text;
+use crate::app::view::picture::status_icons::StatusIcon;
 use crate::app::view::state::Action;
 use crate::app::view::{colours, format};
 use crate::ids::RobotId;
+use crate::protocol::role_swap::Lock;
 
 pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut PanelActions) {
     let strategy = robot.strategy;
@@ -34,6 +37,29 @@ pub(super) fn draw(ui: &mut egui::Ui, robot: &SelectedRobot, actions: &mut Panel
     ));
     if robot.of.off_pitch {
         table::line(ui, "penalty", RichText::new(off_text(robot.state, robot.id)).strong());
+    }
+    table::line(ui, "moves", Movement::of(robot).in_words())
+        .on_hover_text("How fast it is, or what keeps it where it is");
+    let lock = robot.of.swapping.map(|swapping| swapping.machine.lock());
+    let signs = StatusIcon::of(robot.of.robot.health, false, robot.cut_off, false);
+    let signs: Vec<&str> = signs.into_iter().map(StatusIcon::words).collect();
+    let health =
+        if signs.is_empty() { RichText::new("well") } else { RichText::new(signs.join(", ")).strong() };
+    table::line(ui, "health", health);
+    if let Some(lock) = lock {
+        table::line(ui, "lock", lock_in_words(lock, robot.id)).on_hover_text(
+            "Who gives its lock to a team mate takes part in that one's attempt to swap roles, and in no other",
+        );
+    }
+}
+
+fn lock_in_words(lock: Option<Lock>, robot: RobotId) -> RichText {
+    match lock {
+        Some(Lock { by, sequence }) => {
+            let words = format!("held by {} {by}, for swap {sequence}", robot.team);
+            RichText::new(words).color(colours::egui(colours::LOCK))
+        }
+        None => RichText::new("free"),
     }
 }
 

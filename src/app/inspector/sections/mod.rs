@@ -6,6 +6,7 @@ mod calibration;
 mod identity;
 mod joystick;
 mod motor;
+mod movement;
 mod panel_actions;
 mod percepts;
 mod teleoperation;

@@ -46,7 +46,8 @@ fn read_keys(
     mut actions: MessageWriter<Action>,
 ) -> Result {
     use KeyCode::{AltLeft, ControlLeft, ControlRight, ShiftLeft, ShiftRight, SuperLeft, SuperRight};
-    let elsewhere = contexts.ctx_mut()?.egui_wants_keyboard_input();
+    let ctx = contexts.ctx_mut()?;
+    let (elsewhere, is_menu_open) = (ctx.egui_wants_keyboard_input(), egui::Popup::is_any_open(ctx));
     let shift = held.any_pressed([ShiftLeft, ShiftRight]);
     let chord = held.any_pressed([ControlLeft, ControlRight, AltLeft, SuperLeft, SuperRight]);
     for key in typed.read().filter(|key| key.state == ButtonState::Pressed && !elsewhere && !chord) {
@@ -55,6 +56,10 @@ fn read_keys(
             continue;
         }
         let Some(action) = Action::of(key, shift) else { continue };
+        if action == Action::Escape && is_menu_open {
+            // It closes that.
+            continue;
+        }
         let answers = matches!(action, Action::Escape | Action::Help);
         if (action.repeats() || !key.repeat) && (answers || open.question.is_none()) {
             actions.write(action);

@@ -6,7 +6,7 @@ use bevy::prelude::*;
 
 use KeyCode::{
     ArrowDown, ArrowLeft, ArrowRight, ArrowUp, Comma, Escape, F1, F12, Home, KeyA, KeyB, KeyC, KeyD, KeyE,
-    KeyF, KeyH, KeyI, KeyP, KeyQ, KeyR, KeyS, KeyW, KeyX, KeyY, KeyZ, Space, Tab,
+    KeyF, KeyH, KeyI, KeyJ, KeyK, KeyP, KeyQ, KeyR, KeyS, KeyW, KeyX, KeyY, KeyZ, Space, Tab,
 };
 use Press::{Chord, Place, Shifted, Sign};
 
@@ -66,7 +66,7 @@ const fn act(action: Action, presses: &'static [Press], does: &'static str) -> B
 }
 
 /// The keys before those of the overlays.
-const FIRST: [Binding; 23] = [
+const FIRST: [Binding; 25] = [
     drive(DriveKey::Ahead, &[Place(KeyW), Place(ArrowUp)], "Drive ahead"),
     drive(DriveKey::Back, &[Place(KeyS), Place(ArrowDown)], "Drive back"),
     drive(DriveKey::TurnLeft, &[Place(KeyA), Place(ArrowLeft)], "Turn left"),
@@ -80,6 +80,8 @@ const FIRST: [Binding; 23] = [
     act(Action::PlayOrPause, &[Place(Space), Place(KeyP)], "Pause, or play on"),
     act(Action::OneTick, &[Sign(".")], "One tick"),
     act(Action::TickBack, &[Place(Comma)], "One tick back"),
+    act(Action::EventBack, &[Place(KeyJ)], "To what happened last: goals, calls, roles, bookings, bookmarks"),
+    act(Action::EventAhead, &[Place(KeyK)], "To what happens next, as far as it is known"),
     act(Action::Bookmark, &[Place(KeyB)], "A bookmark here, or none any more"),
     act(Action::Why, &[Place(KeyY)], "Why it is so: what in the seconds before has led to this moment"),
     act(Action::Undo, &[Chord(KeyZ)], "Take back what you did last, and go back to before it"),

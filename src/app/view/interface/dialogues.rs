@@ -7,9 +7,10 @@ use super::dock::show_in_the_middle;
 use crate::app::view::colours::{self, egui as paint};
 use crate::app::view::input::keyboard::Keyboard;
 use crate::app::view::state::{
-    Action, FrameSystems, MatchBegun, OpenDialogues, PanelSystems, PendingMatch, Piloted, Question, Rewound,
-    Screen, Selected, Session,
+    Action, FrameSystems, Inspector, MatchBegun, OpenDialogues, PanelSystems, PendingMatch, Piloted,
+    Question, Rewound, Screen, Selected, Session,
 };
+use crate::app::view::time::asking::AskedWhy;
 use crate::clock::Clock;
 use crate::ids::Team;
 use crate::strategy::Strategies;
@@ -60,7 +61,7 @@ fn open_and_close(
             Action::Leave if running => open.question = Some(Question::Leave),
             Action::Leave => doing.carry_out(Question::Leave),
             Action::Escape => {
-                if open.close_one() {
+                if open.close_one() || doing.close_window() {
                     continue;
                 }
                 if selected.0.is_some() && piloted.0.is_none() {
@@ -82,9 +83,20 @@ struct Doing<'w> {
     pending: ResMut<'w, PendingMatch>,
     session: Res<'w, Session>,
     screen: ResMut<'w, NextState<Screen>>,
+    asked: ResMut<'w, AskedWhy>,
+    inspector: ResMut<'w, Inspector>,
 }
 
 impl Doing<'_> {
+    /// Closes one of the windows that float over the pitch; whether there was one.
+    fn close_window(&mut self) -> bool {
+        if self.asked.is_open() {
+            self.asked.close();
+            return true;
+        }
+        std::mem::take(&mut self.inspector.world)
+    }
+
     fn carry_out(&mut self, question: Question) {
         match question {
             Question::Restart => self.pending.0 = Some(self.session.request.clone()),

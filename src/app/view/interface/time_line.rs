@@ -156,6 +156,9 @@ fn mark(painter: &egui::Painter, at: Pos2, what: &MatchEventKind) {
         MatchEventKind::RoleTaken { .. } => {
             painter.circle_filled(below, 2.0, paint(team(colours::team_text)));
         }
+        MatchEventKind::RolledBack { .. } => {
+            painter.circle_stroke(below, 2.5, (1.5, paint(team(colours::team_text))));
+        }
         MatchEventKind::Booked { .. } => {
             let end = below + egui::vec2(0.0, 2.5);
             painter.line_segment([below - egui::vec2(0.0, 2.5), end], (1.0, paint(team(colours::team_text))));

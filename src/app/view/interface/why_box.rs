@@ -18,7 +18,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 fn is_asked(asked: Res<AskedWhy>) -> bool {
-    asked.question.is_some() || asked.report.is_some()
+    asked.is_open()
 }
 
 /// Size of the box in points.

@@ -22,8 +22,10 @@ pub(super) fn plugin(app: &mut App) {
 /// What a ghost is of.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GhostVisual {
-    /// A robot.
+    /// A robot's drive unit.
     Robot(RobotId),
+    /// A robot's trailer.
+    Trailer(RobotId),
     /// The ball.
     Ball,
 }
@@ -55,6 +57,12 @@ fn draw_ghosts(
         let nose =
             [Vec2::new(half.x, 0.0), Vec2::new(0.1 * half.x, half.y), Vec2::new(0.1 * half.x, -half.y)];
         let [body, front] = [BODY, NOSE].map(|alpha| materials.add(paint(colour.with_alpha(alpha))));
+        if let Some(trailer) = &robot.kind.trailer {
+            let outline = meshes.add(polygon(&trailer.outline));
+            let hidden = (Transform::default(), Visibility::Hidden);
+            let shape = (Mesh2d(outline), MeshMaterial2d(body.clone()));
+            commands.spawn((Drawn, GhostVisual::Trailer(*id), hidden, shape));
+        }
         commands
             .spawn((Drawn, GhostVisual::Robot(*id), Transform::default(), Visibility::Hidden))
             .with_children(|parent| {
@@ -85,10 +93,8 @@ fn pose_of(rewind: &Rewind, branch: BranchId, tick: u64, what: GhostVisual) -> O
     let ghost = rewind.ghost(branch, tick)?;
     match what {
         GhostVisual::Ball => Some(Pose { position: ghost.ball, heading: 0.0 }),
-        GhostVisual::Robot(robot) => {
-            let place = ghost.robots.iter().position(|known| *known == robot)?;
-            ghost.poses.get(place).copied()
-        }
+        GhostVisual::Robot(robot) => ghost.robot(robot),
+        GhostVisual::Trailer(robot) => ghost.trailer(robot),
     }
 }
 

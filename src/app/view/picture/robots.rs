@@ -3,14 +3,14 @@
 
 use bevy::prelude::*;
 
-use super::shapes::{EDGE, Paint, Parent, fill, paint, part, polygon};
+use super::shapes::{Paint, Parent, fill, paint, part, polygon};
 use super::visuals::{BodyVisual, Fade, height};
 use super::walkers::{HeadVisual, draw_flash, draw_walker};
 use crate::app::view::colours;
 use crate::app::view::state::MatchBegun;
 use crate::geometry::Pose;
 use crate::ids::RobotId;
-use crate::lab::export::outlines::{box_at, chevron};
+use crate::lab::export::outlines::{RobotOutlines, box_at, chevron};
 use crate::robot::{Drive, Robot, RobotKind, Trailer, jaws};
 
 pub(super) fn plugin(app: &mut App) {
@@ -30,10 +30,6 @@ pub struct Plate {
     pub reach: f32,
 }
 
-/// Half the size of a plate, as a share of how far its trailer reaches back: beyond the drive unit in any position.
-const PLATE_SHARE: f32 = 0.27;
-/// The same for a plate on the body, as a share of the body's length, and its middle behind the body's.
-const ON_BODY: (f32, f32) = (0.22, 0.2);
 /// Room between two robots' heights, so that no two parts are at the same one.
 const STEP: f32 = 0.1;
 
@@ -74,7 +70,9 @@ fn draw_robots(
         };
         let handles =
             [&paint.body, &paint.edge, &paint.team, &paint.head].map(|handle| (handle.clone(), 1.0));
-        let reach = reach(&robot.kind);
+        let outlines = RobotOutlines::of(&robot.kind);
+        let (middle, half) = (outlines.plate, outlines.plate_half);
+        let plate = Plate { of: *id, middle, half, reach: reach(&robot.kind) };
         let mut unit = commands.spawn((BodyVisual::new(entity, Some(*id), *pose, level), Fade::of(handles)));
         match robot.kind.drive {
             Drive::Differential(_) => {
@@ -90,21 +88,16 @@ fn draw_robots(
         }
         let pulled = trailers.iter().find(|(_, trailer, _)| trailer.of == *id);
         match (pulled, &robot.kind.trailer) {
-            (Some((entity, trailer, pose)), Some(kind)) => {
-                let back = kind.outline.iter().map(|corner| -corner.x).fold(trailer.radius, f32::max);
-                let half = PLATE_SHARE * back;
-                let plate = Plate { of: *id, middle: Vec2::X * (half + EDGE - back), half, reach };
+            (Some((entity, _, pose)), Some(kind)) => {
                 let mut drawn =
                     commands.spawn((BodyVisual::new(entity, None, *pose, level - STEP / 2.0), plate));
                 drawn.with_children(|parent| {
                     part(parent, &mut meshes, &paint, &kind.outline);
-                    draw_plate(parent, &mut meshes, &paint, plate.middle, half);
+                    draw_plate(parent, &mut meshes, &paint, middle, half);
                 });
             }
             _ => {
-                let length = robot.kind.body.length;
-                let (half, middle) = (ON_BODY.0 * length, Vec2::X * (-ON_BODY.1 * length));
-                unit.insert(Plate { of: *id, middle, half, reach });
+                unit.insert(plate);
                 unit.with_children(|parent| draw_plate(parent, &mut meshes, &paint, middle, half));
             }
         }

@@ -14,6 +14,10 @@ pub enum Action {
     OneTick,
     /// Go one tick back.
     TickBack,
+    /// Go to the last event before now.
+    EventBack,
+    /// Go to the next event that is known.
+    EventAhead,
     /// Go to where so many ticks are over.
     GoTo(u64),
     /// Play on in another branch.

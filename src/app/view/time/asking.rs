@@ -52,6 +52,11 @@ impl AskedWhy {
         Some(self.report.as_ref()?.findings.get(place)?.candidate.clone())
     }
 
+    /// Whether there is a question or an answer.
+    pub fn is_open(&self) -> bool {
+        self.question.is_some() || self.report.is_some()
+    }
+
     /// Nobody wants to know any more.
     pub fn close(&mut self) {
         if let Some(question) = self.question.take() {
@@ -107,13 +112,16 @@ fn ask(
     });
 }
 
-/// The tick after which things stand as is asked: that of a goal at the present moment, or else the last one.
+/// With other dice the same goal may fall so much later, s.
+const LATER: f32 = 1.0;
+
+/// The tick after which things stand as is asked: a moment after a goal at the present moment, or else the last one.
 fn meant(rewind: &Rewind, clock: &Clock) -> u64 {
     let soon = clock.tick..clock.tick + clock.ticks(SOON);
     let is_goal = |what: &MatchEventKind| matches!(what, MatchEventKind::Call(Decision::Goal { .. }));
     let mut events = rewind.events(rewind.present());
     let goal = events.find(|event| soon.contains(&event.tick) && is_goal(&event.what));
-    goal.map_or(clock.tick.saturating_sub(1), |goal| goal.tick)
+    goal.map_or(clock.tick.saturating_sub(1), |goal| goal.tick + clock.ticks(LATER))
 }
 
 fn hear(mut asked: ResMut<AskedWhy>) {

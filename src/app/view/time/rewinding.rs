@@ -21,33 +21,52 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// Where a person wants the match to go.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
 struct WantedWay(Option<Way>);
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 enum Way {
     To(u64),
+    /// To the tick of something that happened.
+    ToEvent(u64, String),
     ToBranch(BranchId),
     /// Into the branch of a reason that was found, by its place.
     Reason(usize),
     BeforeLast,
 }
 
-fn want(mut actions: MessageReader<Action>, clock: Res<Clock>, mut wanted: ResMut<WantedWay>) {
+fn want(
+    mut actions: MessageReader<Action>,
+    (clock, rewind): (Res<Clock>, Option<Res<Rewind>>),
+    mut wanted: ResMut<WantedWay>,
+    mut announcement: ResMut<Announcement>,
+) {
     for action in actions.read() {
         // Back from where it is about to be.
         let tick = match wanted.0 {
-            Some(Way::To(tick)) => tick,
+            Some(Way::To(tick) | Way::ToEvent(tick, _)) => tick,
             _ => clock.tick,
         };
-        wanted.0 = Some(match *action {
-            Action::TickBack => Way::To(tick.saturating_sub(1)),
-            Action::GoTo(tick) => Way::To(tick),
-            Action::TakeBranch(branch) => Way::ToBranch(branch),
-            Action::TakeReason(place) => Way::Reason(place),
-            Action::Undo => Way::BeforeLast,
-            _ => continue,
-        });
+        let event = |ahead| rewind.as_ref().and_then(|rewind| rewind.nearest_event(tick, ahead));
+        let mut to_event = |found: Option<(u64, String)>, nothing: &str| {
+            if found.is_none() {
+                announcement.tell(nothing.to_owned());
+            }
+            found.map(|(tick, what)| Way::ToEvent(tick, what))
+        };
+        let way = match *action {
+            Action::TickBack => Some(Way::To(tick.saturating_sub(1))),
+            Action::GoTo(tick) => Some(Way::To(tick)),
+            Action::EventBack => to_event(event(false), "Nothing has happened before"),
+            Action::EventAhead => to_event(event(true), "Nothing is known of what comes"),
+            Action::TakeBranch(branch) => Some(Way::ToBranch(branch)),
+            Action::TakeReason(place) => Some(Way::Reason(place)),
+            Action::Undo => Some(Way::BeforeLast),
+            _ => None,
+        };
+        if way.is_some() {
+            wanted.0 = way;
+        }
     }
 }
 
@@ -88,6 +107,7 @@ fn follow(world: &mut World, rewind: &mut Rewind, way: Way) -> Result<Option<Str
     let look = &mut |world: &mut World| world.run_schedule(AfterTick);
     match way {
         Way::To(tick) => rewind.seek(world, tick, look).map(|()| None),
+        Way::ToEvent(tick, what) => rewind.seek(world, tick, look).map(|()| Some(what)),
         Way::ToBranch(branch) => {
             let tick = world.resource::<Clock>().tick.min(rewind.branch(branch).end);
             // What was played beside another branch is recorded now.

@@ -1,5 +1,7 @@
 //! A person goes back in a match, and on from there another way, by keys and on the time line.
 
+use std::collections::BTreeMap;
+
 use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key, KeyboardInput};
 use bevy::prelude::*;
@@ -11,7 +13,8 @@ use crate::app::match_request::MatchRequest;
 use crate::app::view::interface::saving::ScenarioFolder;
 use crate::app::view::picture::ghosts::GhostVisual;
 use crate::app::view::state::{
-    Action, Beside, Inspector, Overlay, PendingMatch, Piloted, Playback, Selected, Session,
+    Action, Beside, Inspector, OpenDialogues, Overlay, PendingMatch, Piloted, Playback, Question, Selected,
+    Session,
 };
 use crate::app::view::time::recording::Recording;
 use crate::clock::Clock;
@@ -24,6 +27,7 @@ use crate::ids::{RobotId, Team};
 use crate::lab::replay::Replay;
 use crate::lab::rewind::{BranchId, MatchEventKind, Rewind};
 use crate::lab::scenario::{ScenarioPlan, ScenarioRef};
+use crate::robot::Trailer;
 use crate::robot::pilot::Pilot;
 use crate::world::ball::Ball;
 
@@ -118,7 +122,7 @@ impl LaidOutFrame {
     }
 
     /// Where a tick of a match without breaks lies on its line.
-    fn place_of(&self, tick: u64, last: u64) -> Pos2 {
+    pub(super) fn place_of(&self, tick: u64, last: u64) -> Pos2 {
         let line = self.time_line();
         pos2(line.left() + line.width() * tick as f32 / last as f32, line.top() + 13.0)
     }
@@ -252,6 +256,90 @@ fn a_bookmark_is_a_place_to_go_back_to() {
 }
 
 #[test]
+fn a_bookmark_is_in_the_file_within_a_second_although_the_match_is_paused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.replay");
+    let mut window = LaidOutWindow::new();
+    window.app.insert_resource(Recording::to(Some(path.clone())));
+    window
+        .app
+        .insert_resource(PendingMatch(Some(MatchRequest::Match(Choice { seed: 3, ..Choice::default() }))));
+    window.frame(SIZE, 1.0);
+    window.play_to(75);
+    let second = |window: &mut LaidOutWindow| (0..62).for_each(|_| drop(window.frame(SIZE, 1.0)));
+    let kept = || {
+        let replay = Replay::read(&path).expect("it was begun");
+        replay.bookmarks().into_iter().map(|bookmark| (bookmark.tick, bookmark.note)).collect::<Vec<_>>()
+    };
+    window.press(KeyCode::KeyB, "b");
+    second(&mut window);
+    assert_eq!(kept(), [(75, "A bookmark".to_owned())], "the program may die now");
+    window.press(KeyCode::KeyB, "b");
+    second(&mut window);
+    assert_eq!(kept(), []);
+}
+
+#[test]
+fn two_keys_go_from_event_to_event_and_say_what_happened() {
+    let mut window = LaidOutWindow::scenario("swap_figure_8");
+    window.play_to(60);
+    window.press(KeyCode::KeyB, "b");
+    window.play_to(400);
+    let rewind = window.rewind();
+    let mut ticks: Vec<u64> = rewind.events(BranchId(0)).map(|event| event.tick).chain([60]).collect();
+    ticks.sort_unstable();
+    ticks.dedup();
+    let mut back = Vec::new();
+    for _ in 0..ticks.len() {
+        window.press(KeyCode::KeyJ, "j");
+        back.push(window.clock());
+    }
+    assert_eq!(back.iter().rev().copied().collect::<Vec<_>>(), ticks);
+    window.press(KeyCode::KeyJ, "j");
+    assert!(window.frame(SIZE, 1.0).shows("Nothing has happened before"));
+    assert_eq!(window.clock(), ticks[0]);
+    window.go_to(59);
+    window.press(KeyCode::KeyK, "k");
+    assert!(window.clock() == 60 && window.frame(SIZE, 1.0).shows("A bookmark"));
+    window.go_to(400);
+    window.press(KeyCode::KeyK, "k");
+    assert!(window.clock() == 400 && window.frame(SIZE, 1.0).shows("Nothing is known of what comes"));
+}
+
+#[test]
+fn escape_closes_the_menu_of_the_past_and_the_world_and_asks_nothing() {
+    let mut window = LaidOutWindow::playing(None);
+    window.play_to(30);
+    let question = |window: &LaidOutWindow| window.app.world().resource::<OpenDialogues>().question;
+    let escape = |window: &mut LaidOutWindow| {
+        let key = Event::Key {
+            key: egui::Key::Escape,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        let logical_key = Key::Escape;
+        let (key_code, state) = (KeyCode::Escape, ButtonState::Pressed);
+        let window_of = Entity::PLACEHOLDER;
+        let pressed =
+            KeyboardInput { key_code, logical_key, state, text: None, repeat: false, window: window_of };
+        window.app.world_mut().write_message(pressed);
+        window.frame_with(SIZE, 1.0, vec![key]);
+        window.show(SIZE, 1.0)
+    };
+    let past = window.show(SIZE, 1.0).place("Past ⏶").expect("there is a menu");
+    assert!(window.click(SIZE, past, PointerButton::Primary).shows("Save as scenario"));
+    let closed = escape(&mut window);
+    assert!(!closed.shows("Save as scenario") && question(&window).is_none(), "{:?}", closed.texts);
+    window.app.world_mut().write_message(Action::World);
+    assert!(window.show(SIZE, 1.0).shows("World (F12)"));
+    assert!(!escape(&mut window).shows("World (F12)") && question(&window).is_none());
+    escape(&mut window);
+    assert_eq!(question(&window), Some(Question::Leave), "nothing else is open");
+}
+
+#[test]
 fn the_present_moment_is_saved_as_a_scenario_that_can_be_played() {
     let folder = tempfile::tempdir().expect("a folder");
     for (mut window, tick) in
@@ -320,15 +408,21 @@ fn another_future_is_shown_as_ghosts_where_it_has_gone_and_goes_on_beside() {
         .world_mut()
         .resource_mut::<Requests>()
         .ask(Request::Body(BodyChange::Ball { at, velocity: Vec2::ZERO }));
-    let ghosts = |window: &mut LaidOutWindow| -> Vec<Vec2> {
+    let ghosts = |window: &mut LaidOutWindow| {
         let mut ghosts = window.app.world_mut().query::<(&GhostVisual, &Transform, &Visibility)>();
         let shown =
             ghosts.iter(window.app.world()).filter(|(.., visibility)| **visibility != Visibility::Hidden);
-        let mut shown: Vec<_> = shown.map(|(_, transform, _)| transform.translation.xy()).collect();
-        shown.sort_by(|a, b| (a.x, a.y).partial_cmp(&(b.x, b.y)).expect("they are numbers"));
-        shown
+        let (mut bodies, mut trailers) = (Vec::new(), BTreeMap::new());
+        for (what, transform, _) in shown {
+            match what {
+                GhostVisual::Trailer(of) => drop(trailers.insert(*of, *transform)),
+                _ => bodies.push(transform.translation.xy()),
+            }
+        }
+        bodies.sort_by(|a, b| (a.x, a.y).partial_cmp(&(b.x, b.y)).expect("they are numbers"));
+        (bodies, trailers)
     };
-    assert_eq!(ghosts(&mut window), []);
+    assert_eq!(ghosts(&mut window), (Vec::new(), BTreeMap::new()));
     let mut alone = LaidOutWindow::playing(None);
     for tick in [140, 220] {
         window.play_to(tick);
@@ -337,7 +431,17 @@ fn another_future_is_shown_as_ghosts_where_it_has_gone_and_goes_on_beside() {
         let mut there = alone.app.world_mut().query_filtered::<&Pose, Or<(With<RobotId>, With<Ball>)>>();
         let mut there: Vec<Vec2> = there.iter(alone.app.world()).map(|pose| pose.position).collect();
         there.sort_by(|a, b| (a.x, a.y).partial_cmp(&(b.x, b.y)).expect("they are numbers"));
-        assert_eq!(ghosts(&mut window), there, "at {tick}");
+        let (bodies, trailers) = ghosts(&mut window);
+        assert_eq!(bodies, there, "at {tick}");
+        let mut pulled = alone.app.world_mut().query::<(&Trailer, &Pose)>();
+        let pulled: Vec<_> = pulled.iter(alone.app.world()).collect();
+        assert_eq!((pulled.len(), trailers.len()), (8, 8));
+        for (trailer, pose) in pulled {
+            let shown = trailers[&trailer.of];
+            assert!(shown.translation.xy().distance(pose.position) < 0.02, "at {tick}: {}", trailer.of);
+            let turned = shown.rotation.angle_between(Quat::from_rotation_z(pose.heading));
+            assert!(turned < 1e-3, "at {tick}: {}", trailer.of);
+        }
     }
     assert_eq!(window.rewind().branch(BranchId(0)).end, 220, "the old future went on");
 }

@@ -1,11 +1,15 @@
 //! A person reads the state machine of a robot and what it came from.
 
+use std::collections::BTreeMap;
+
 use egui::{PointerButton, vec2};
 
-use super::{LaidOutWindow, ROBOT, egui};
+use super::{LaidOutFrame, LaidOutWindow, ROBOT, egui};
 use crate::app::match_request::MatchRequest;
-use crate::app::view::state::{Action, Overlay, Overlays, Playback, Selected};
-use crate::game::Choice;
+use crate::app::view::colours;
+use crate::app::view::state::{Action, Overlay, Overlays, PanelSizes, Playback, Selected, Session};
+use crate::clock::Clock;
+use crate::game::{Choice, Match};
 use crate::ids::RobotId;
 use crate::strategy::{Activity, Strategies};
 
@@ -83,6 +87,69 @@ fn a_click_on_a_state_shows_its_ways_out_and_another_robot_shows_its_own() {
         "{:?}",
         frame.texts
     );
+}
+
+/// How often the robots of home have come to each state of the machine that a robot runs, by its name; its robots begin in one each.
+fn entered(window: &mut LaidOutWindow, until: u64) -> BTreeMap<String, u32> {
+    let (own, strategy) = (activity(window), window.app.world().resource::<Strategies>().0[0].clone());
+    let index = own.machine(&strategy);
+    let machine = &strategy.machines[index];
+    let mut counts: BTreeMap<String, u32> =
+        machine.all_states().map(|state| (machine.name_of(state).to_owned(), 0)).collect();
+    let plan = window.app.world().resource::<Session>().plan.clone().expect("it is a match");
+    let mut game = Match::new(&plan);
+    while game.clock().tick < until {
+        game.tick();
+        let last = game.clock().tick - 1;
+        let world = game.world_mut();
+        let mut robots = world.query::<(&RobotId, &Activity)>();
+        for (_, activity) in robots.iter(world).filter(|(id, _)| id.team == ROBOT.team) {
+            if activity.machine(&strategy) == index && activity.since == last {
+                *counts.entry(machine.states[activity.state].name.clone()).or_default() += 1;
+            }
+        }
+    }
+    counts
+}
+
+#[test]
+fn with_counts_the_chart_tells_how_often_each_state_was_reached_and_what_never_was() {
+    let mut window = charted(Choice::default());
+    window.app.insert_resource(PanelSizes { states: 700.0, ..PanelSizes::default() });
+    // The ground of a box, which lies over all others.
+    let ground = |frame: &LaidOutFrame, at: egui::Pos2| {
+        frame.grounds.iter().rev().find(|(rect, _)| rect.contains(at)).map(|(_, colour)| *colour)
+    };
+    let [plain, dead] = [colours::RAISED, colours::SUNKEN].map(|colour| Some(colours::egui(colour)));
+    while activity(&mut window).history.len() < 3 {
+        window.frame(SIZE, 1.0);
+    }
+    window.app.insert_resource(Playback { paused: true, ..Playback::default() });
+    let before = window.show(SIZE, 1.0);
+    let choice = before.place("match").expect("there is a choice");
+    window.click(SIZE, choice, PointerButton::Primary);
+    let frame = window.show(SIZE, 1.0);
+    let tick = window.app.world().resource::<Clock>().tick;
+    let (current, _) = states(&mut window);
+    let (mut reached, mut never) = (0, 0);
+    for (state, count) in entered(&mut window, tick) {
+        let at = frame.places.iter().find(|(text, _)| *text == state).map(|(_, rect)| rect.center());
+        let at = at.unwrap_or_else(|| panic!("{state} in {:?}", frame.texts));
+        let is_below = |rect: &egui::Rect| rect.contains(at + vec2(0.0, 12.0));
+        let mut below = frame.places.iter().filter(|(text, rect)| *text != state && is_below(rect));
+        let told = below.next().map(|(text, _)| text.as_str()).unwrap_or_default();
+        match count {
+            _ if state == current => assert!(told.starts_with("for "), "{state}: {told}"),
+            0 => assert_eq!((told, ground(&frame, at)), ("never", dead), "{state}"),
+            _ => {
+                assert!(told.starts_with(&format!("{count}×, ")), "{state}: {told}, not {count}");
+                let colour = ground(&frame, at);
+                assert!(colour != dead && colour != plain && ground(&before, at) == plain, "{state}");
+            }
+        }
+        (reached, never) = (reached + u32::from(count > 0), never + u32::from(count == 0));
+    }
+    assert!(reached > 1 && never > 0, "{reached} reached, {never} never");
 }
 
 #[test]
