@@ -4,7 +4,7 @@ use bevy::math::Vec2;
 use criterion::{Criterion, criterion_group, criterion_main};
 use touchline::data::{AssetFolder, AssetKind, Source};
 use touchline::game::{Choice, MatchPlan};
-use touchline::geometry::Pose;
+use touchline::geometry::{Pose, angle};
 use touchline::ids::{RobotId, Team};
 use touchline::rng::{Dice, Seed};
 use touchline::robot::RobotKind;
@@ -22,7 +22,7 @@ fn crowd(kind: &RobotKind) -> Moment {
         for number in 0..4 {
             let side = team.index() as f32 * 2.0 - 1.0;
             let at = Vec2::new(side * (0.3 + 0.4 * f32::from(number)), 0.25 * f32::from(number) * side);
-            let pose = Pose { position: at, heading: at.to_angle() + 3.0 };
+            let pose = Pose { position: at, heading: angle(at) + 3.0 };
             moment.add(RobotId::new(team, number), kind, pose, 0.3, None);
         }
     }

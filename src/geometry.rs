@@ -7,9 +7,10 @@
 use std::f32::consts::{PI, TAU};
 
 pub use bevy::math::Vec2;
-use bevy::math::ops;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
+
+use crate::ops;
 
 /// A position in metres and a heading in radians, counter-clockwise from +x.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
@@ -115,7 +116,7 @@ pub fn wrap_angle(angle: f32) -> f32 {
     if angle.abs() <= PI {
         return angle;
     }
-    let wrapped = ops::rem_euclid(angle + PI, TAU) - PI;
+    let wrapped = (angle + PI).rem_euclid(TAU) - PI;
     if wrapped.is_finite() { wrapped } else { 0.0 }
 }
 

@@ -31,7 +31,7 @@
 //!
 //! | module | what is in it |
 //! |---|---|
-//! | [`schedule`], [`clock`], [`ids`], [`rng`], [`geometry`] | the stages of a tick, time, names, dice, poses |
+//! | [`schedule`], [`clock`], [`ids`], [`ops`], [`rng`], [`geometry`] | the stages of a tick, time, names, transcendental functions, dice, poses |
 //! | [`state`] | what belongs to a match: how it starts, changes, is copied and put back |
 //! | [`data`] | RON files, with places for their mistakes |
 //! | [`pitch`] | the pitch |
@@ -69,6 +69,7 @@ pub mod geometry;
 pub mod ids;
 pub mod lab;
 pub mod mind;
+pub mod ops;
 pub mod pitch;
 pub mod protocol;
 pub mod rng;

@@ -9,7 +9,7 @@ use std::process::Command;
 use bevy::prelude::*;
 use touchline::game::Match;
 use touchline::game::requests::{BodyChange, Request, Requests};
-use touchline::geometry::{Pose, Twist};
+use touchline::geometry::{Pose, Twist, unit};
 use touchline::ids::{RobotId, Team};
 use touchline::lab::scenario::ScenarioPlan;
 use touchline::pitch::Pitch;
@@ -222,7 +222,7 @@ fn nothing_moves_faster_than_50_metres_or_turns_faster_than_100_radians_a_second
     let mut game = playing("");
     let (mut fastest, mut fastest_turn) = (0.0_f32, 0.0_f32);
     for tick in 0..300_u16 {
-        let way = Vec2::from_angle(f32::from(tick));
+        let way = unit(f32::from(tick));
         let mut requests = game.world_mut().resource_mut::<Requests>();
         // Each push is bounded; that so many add up is what the limit is for.
         for (team, number) in [(Team::Home, 0), (Team::Home, 1), (Team::Away, 0)].repeat(8) {

@@ -3,6 +3,7 @@
 
 use bevy::prelude::Vec2;
 use touchline::data::AssetKind;
+use touchline::geometry::angle;
 use touchline::pitch::Pitch;
 use touchline::strategy::language::{Feature, Point, Points, Schema, ZoneName};
 use touchline::strategy::{
@@ -202,7 +203,7 @@ fn support(team: &Strategy) -> Vec<String> {
         _ => None,
     });
     let fits = |behind: f32, aside: f32| {
-        let off = Vec2::new(behind, aside).to_angle().to_degrees();
+        let off = angle(Vec2::new(behind, aside)).to_degrees();
         Vec2::new(behind, aside).length() < 1.25 && (20.0..=60.0).contains(&off)
     };
     let faults = spots.filter(|(behind, aside)| !fits(*behind, *aside));

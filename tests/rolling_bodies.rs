@@ -1,7 +1,6 @@
 //! Bodies in motion against closed forms: the trailer behind its drive unit, the ball, and collisions.
 
 use bevy::ecs::system::SystemState;
-use bevy::math::ops;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::{RapierRigidBodyHandle, RapierRigidBodySet};
 use bevy_rapier2d::rapier::dynamics::RigidBody;
@@ -10,6 +9,7 @@ use touchline::game::requests::{Request, Requests};
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::{Pose, Twist, wrap_angle};
 use touchline::ids::{RobotId, Team};
+use touchline::ops;
 use touchline::robot::Trailer;
 use touchline::robot::pilot::Pilot;
 use touchline::world::ball::Ball;

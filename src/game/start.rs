@@ -13,7 +13,7 @@ use crate::ids::{MatchEntity, RobotId, Team};
 use crate::rng::{Dice, Seed};
 use crate::state;
 use crate::strategy::{Strategies, StrategySources};
-use crate::world::physics::open_world;
+use crate::world::physics::{open_world, turn_to_poses};
 use crate::world::referee::MatchState;
 use crate::world::sense::{HallLight, Light};
 
@@ -31,6 +31,8 @@ pub fn start_match(world: &mut World, plan: &MatchPlan) {
     for id in in_drawn_order(plan) {
         spawn_robot(world, plan, id);
     }
+    // There are bodies, so it runs.
+    let _ = world.run_system_cached(turn_to_poses);
     net::prepare(world, plan);
 }
 

@@ -4,12 +4,12 @@
 //! Teams of the four-legged league tell of it (Quinlan and others, "Traction monitoring for collision detection with legged
 //! robots", RoboCup 2003), and nobody has published how much it is. One number, [`ContactCost::left`], scales all of it.
 
-use bevy::math::ops;
 use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::data::{Bound, Fault, Validate, check_all, ensure};
 use crate::ids::RobotId;
+use crate::ops;
 use crate::rng::{Dice, Seed};
 
 /// What contact with other robots costs a kind of robot, as data.

@@ -1,11 +1,12 @@
 //! Where a camera is, and which way a pixel looks.
 
-use bevy::math::{Vec2, Vec3, ops};
+use bevy::math::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::settings::Resolution;
 use crate::data::{Bound, Fault, Validate, check_all, check_count};
 use crate::geometry::{Sighting, angle};
+use crate::ops;
 
 /// The sensor and the lens of a camera, and where it sits on its robot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,6 +4,7 @@
 //! Rapier's own body set, so a tick costs little more than Rapier itself.
 
 mod footprint;
+mod pose;
 mod put;
 mod room;
 mod saved;
@@ -15,7 +16,6 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
 use bevy_rapier2d::rapier::dynamics::{IntegrationParameters, RigidBody as Body, RigidBodySet};
 use bevy_rapier2d::rapier::geometry::ContactPair;
-use bevy_rapier2d::rapier::math::rotation_from_angle;
 
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
@@ -23,6 +23,7 @@ use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
 use footprint::place_of;
 pub use footprint::{Footprint, nearest_free, trailer_shape, unit_shapes};
+use pose::{pose_of, turn};
 pub use put::{Put, push};
 pub use walls::wall_boxes;
 
@@ -89,15 +90,14 @@ impl Bodies<'_, '_> {
 
     /// Where a body is.
     pub fn pose(&self, handle: &RapierRigidBodyHandle) -> Option<Pose> {
-        let body = self.get(handle)?;
-        Some(Pose { position: body.translation(), heading: body.rotation().angle() })
+        self.get(handle).map(pose_of)
     }
 
     /// Puts a body somewhere, at rest.
     fn place(&mut self, handle: &RapierRigidBodyHandle, pose: Pose) {
         if let Some(body) = self.get_mut(handle) {
             body.set_translation(pose.position, true);
-            body.set_rotation(rotation_from_angle(pose.heading), true);
+            turn(body, pose.heading);
             body.set_linvel(Vec2::ZERO, true);
             body.set_angvel(0.0, true);
         }
@@ -131,6 +131,15 @@ pub fn open_world(world: &mut World, pitch: &Pitch, mark: impl Bundle + Copy) {
 pub fn register_bodies(world: &mut World) {
     world.run_schedule(RegisterBodies);
     world.flush();
+}
+
+/// Turns all bodies as their poses say, once they are registered: bevy_rapier has turned them by the platform's sines.
+pub fn turn_to_poses(mut bodies: Bodies, poses: Query<(&RapierRigidBodyHandle, &Pose)>) {
+    for (handle, pose) in &poses {
+        if let Some(body) = bodies.get_mut(handle) {
+            turn(body, pose.heading);
+        }
+    }
 }
 
 /// What a ball overlaps, for those who judge the physics.
@@ -217,7 +226,7 @@ fn limit_speeds(bodies: &mut RigidBodySet) {
 fn read_back(bodies: Bodies, mut truth: Query<(&RapierRigidBodyHandle, &mut Pose, &mut Twist)>) {
     for (handle, mut pose, mut twist) in &mut truth {
         let Some(body) = bodies.get(handle) else { continue };
-        *pose = Pose { position: body.translation(), heading: body.rotation().angle() };
+        *pose = pose_of(body);
         *twist = Twist { linear: body.linvel(), angular: body.angvel() };
     }
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use imports::{House, read_house};
 use pathfinding::prelude::strongly_connected_components;
 
-/// Each room with the rooms that it may import from. All may import from the ground: `schedule state clock ids rng geometry`.
+/// Each room with the rooms that it may import from. All may import from the ground: `schedule state clock ids ops rng geometry`.
 const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("data", &[]),
     ("pitch", &["data"]),
@@ -31,13 +31,14 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
 ];
 
 /// The files that every room may import from, and that import from no room.
-const GROUND: &[&str] = &["clock", "geometry", "ids", "rng", "schedule", "state"];
+const GROUND: &[&str] = &["clock", "geometry", "ids", "ops", "rng", "schedule", "state"];
 
 /// A crate, the only rooms that may name it, and why.
 const ONLY_IN: &[(&str, &[&str], &str)] = &[
     ("bevy_egui", &["app"], "a match needs no window"),
     ("bevy_inspector_egui", &["app"], "a match needs no window"),
     ("bevy_rapier2d", &["app", "game", "robot", "world"], "minds and radios know no bodies"),
+    ("libm", &["ops"], "the functions that every machine computes alike are one list"),
 ];
 
 /// Modules of this crate and others that a room may not name, and why.

@@ -188,7 +188,8 @@ fn a_strategy_with_a_fault_is_refused_with_file_line_and_field_and_changes_nothi
 fn a_robot_tells_what_it_believes_is_in_and_wants_until_nobody_asks_any_more() {
     let by_radio = talkative(0.5);
     let (mut game, plan) = open_to(by_radio.clone(), &[]);
-    let mut manager = Manager::of(&plan, HOME_1, 0.2);
+    // The forward, which stands before the ball at the kick-off.
+    let mut manager = Manager::of(&plan, RobotId::new(Team::Home, 3), 0.2);
     manager.talk.subscribe(Subscription { images_hz: 0.0, data_hz: 20.0 });
     let news = manager.ticks(&mut game, 600);
     let data = debug_data(&news);

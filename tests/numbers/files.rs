@@ -4,12 +4,12 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use bevy::math::ops;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use touchline::data::{AssetFolder, AssetKind, DataError};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::lab::scenario::ScenarioPlan;
+use touchline::ops;
 
 use super::{SCENARIO, assert_on_pitch};
 use crate::support::assets;

@@ -1,5 +1,6 @@
 //! The numbers of the fast model of a camera that fit what was seen best. Pure.
 
+use crate::ops;
 use crate::robot::Camera;
 use crate::world::sense::detection;
 
@@ -28,7 +29,7 @@ pub(super) fn reach(looks: &[(f32, bool)], most: f32, camera: &Camera) -> Option
         let of_bin = |(index, [missed, seen]): (usize, &[u32; 2])| {
             let chance = detection(&model, (index as f32 + 0.5) * BIN, reach.range);
             let chance = f64::from(chance).clamp(FREAK, 1.0 - FREAK);
-            f64::from(*seen) * chance.ln() + f64::from(*missed) * (1.0 - chance).ln()
+            f64::from(*seen) * ops::ln_f64(chance) + f64::from(*missed) * ops::ln_f64(1.0 - chance)
         };
         bins.iter().enumerate().map(of_bin).sum()
     };

@@ -69,7 +69,7 @@ fn acceleration(values: &[f64], statistic: impl Fn(&[f64]) -> f64) -> Option<f64
     let moment = |power| jackknife.iter().map(|value| (centre - value).powi(power)).sum::<f64>();
     let square = moment(2);
     let is_spread = square > f64::EPSILON * centre * centre;
-    is_spread.then(|| moment(3) / (6.0 * square.powf(1.5)))
+    is_spread.then(|| moment(3) / (6.0 * square * square.sqrt()))
 }
 
 /// Linear between the sorted values, from the first at 0 to the last at 1.

@@ -1,8 +1,11 @@
 //! How many pairs of matches it takes until a difference shows.
 
+use std::f64::consts::LN_2;
+
 use statrs::function::gamma::ln_gamma;
 
 use super::quantiles::{normal_cdf, normal_quantile, normal_reach, student_reach};
+use crate::ops;
 
 /// Nobody plays more pairs than these to see a difference.
 pub const MOST_PAIRS: u32 = 1_000_000;
@@ -56,10 +59,10 @@ const DEVIATIONS: f64 = 9.0;
 /// `(Z + noncentrality) / s` with a normal `Z` and the deviation `s` of a normal sample; the integral over `s` is by Simpson's rule.
 fn beyond(reach: f64, noncentrality: f64, freedom: f64) -> f64 {
     let half = freedom / 2.0;
-    let scale = 2.0_f64.ln() + half * half.ln() - ln_gamma(half);
+    let scale = LN_2 + half * ops::ln_f64(half) - ln_gamma(half);
     let density = |s: f64| {
         if s > 0.0 {
-            (scale + (freedom - 1.0) * s.ln() - half * s * s).exp()
+            ops::exp_f64(scale + (freedom - 1.0) * ops::ln_f64(s) - half * s * s)
         } else {
             at_zero(freedom, scale)
         }
@@ -78,5 +81,5 @@ fn beyond(reach: f64, noncentrality: f64, freedom: f64) -> f64 {
 
 /// The density of the deviation at 0: only one degree of freedom has any there.
 fn at_zero(freedom: f64, scale: f64) -> f64 {
-    if freedom == 1.0 { scale.exp() } else { 0.0 }
+    if freedom == 1.0 { ops::exp_f64(scale) } else { 0.0 }
 }

@@ -3,6 +3,8 @@
 use serde::Serialize;
 use statrs::function::beta::{beta_reg, ln_beta};
 
+use crate::ops;
+
 /// A sequential test of a probability against a threshold, which may be looked at after every trial.
 ///
 /// On either side of the threshold, the likelihood of the trials is weighed over all probabilities there by Jeffreys's distribution and divided
@@ -51,7 +53,7 @@ impl ProbabilityTest {
         let is_above = met > threshold * (met + missed);
         let (trials, threshold) =
             if is_above { ((met, missed), threshold) } else { ((missed, met), 1.0 - threshold) };
-        let wanted = -(1.0 - self.confidence).ln();
+        let wanted = -ops::ln_f64(1.0 - self.confidence);
         // The mean ratio is no more than the largest one, which is quickly found.
         let is_decided =
             largest_log_ratio(trials, threshold) >= wanted && log_ratio(trials, threshold) >= wanted;
@@ -83,16 +85,16 @@ pub(super) fn log_ratio((met, missed): (f64, f64), threshold: f64) -> f64 {
     const JEFFREYS: f64 = 0.5;
     let log_integral = |met: f64, missed: f64| {
         let (a, b) = (met + JEFFREYS, missed + JEFFREYS);
-        ln_beta(a, b) + beta_reg(b, a, 1.0 - threshold).ln()
+        ln_beta(a, b) + ops::ln_f64(beta_reg(b, a, 1.0 - threshold))
     };
-    let at_threshold = met * threshold.ln() + missed * (1.0 - threshold).ln();
+    let at_threshold = met * ops::ln_f64(threshold) + missed * ops::ln_f64(1.0 - threshold);
     log_integral(met, missed) - log_integral(0.0, 0.0) - at_threshold
 }
 
 /// As [`log_ratio`], with the share of the trials that went so in place of all probabilities.
 fn largest_log_ratio((met, missed): (f64, f64), threshold: f64) -> f64 {
     let part = |count: f64, probability: f64| {
-        if count > 0.0 { count * (count / (met + missed) / probability).ln() } else { 0.0 }
+        if count > 0.0 { count * ops::ln_f64(count / (met + missed) / probability) } else { 0.0 }
     };
     part(met, threshold) + part(missed, 1.0 - threshold)
 }

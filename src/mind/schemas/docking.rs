@@ -9,8 +9,9 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use bevy::math::ops;
 use bevy::prelude::*;
+
+use crate::ops;
 
 /// The settings of [`dock_behind`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,6 @@
 //! It then comes to the ball as the walls let it, and turns with the ball before its scoop, which sweeps the ball out.
 //! Directions are unit vectors on the team frame's axes.
 
-use bevy::math::ops;
 use bevy::prelude::*;
 
 use crate::geometry::{angle, unit};
@@ -36,7 +35,7 @@ pub fn way_in(ball: Vec2, shot: Vec2, standoff: f32, fits: impl Fn(Vec2) -> bool
 /// The course of a robot that sweeps the ball before it towards `shot` and away from `threat`, the direction of what has to
 /// be kept from it: far enough to that side to turn on the spot.
 pub fn sweep(ball: Vec2, shot: Vec2, threat: Vec2, heading: f32) -> Vec2 {
-    unit(heading + ops::copysign(TURN, ball.perp_dot(shot - threat)))
+    unit(heading + TURN.copysign(ball.perp_dot(shot - threat)))
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@
 
 use std::collections::VecDeque;
 
-use bevy::math::ops;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
@@ -15,6 +14,7 @@ use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::ids::{PlayerNumber, Team};
+use crate::ops;
 use crate::pitch::Pitch;
 use crate::robot::{
     Eyes, Fix, Frame, Localisation, MemorySpans, Odometry, Sensing, range_deviation, should_be_seen,

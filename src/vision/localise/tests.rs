@@ -2,11 +2,11 @@
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-use bevy::math::ops;
 use proptest::prelude::*;
 
 use super::*;
 use crate::geometry::unit;
+use crate::ops;
 use crate::rng::{Dice, Seed};
 
 const ERRORS: FilterErrors = FilterErrors {

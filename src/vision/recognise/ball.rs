@@ -2,12 +2,13 @@
 
 use std::f32::consts::PI;
 
-use bevy::math::{Vec2, ops};
+use bevy::math::Vec2;
 
 use super::estimate::{RangeEstimate, fuse};
 use super::known::KnownObjects;
 use super::perspective::Perspective;
 use crate::geometry::{Sighting, wrap_angle};
+use crate::ops;
 use crate::vision::blob::ColourBlob;
 use crate::vision::colours::ColourClass;
 

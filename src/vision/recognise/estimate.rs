@@ -1,6 +1,6 @@
 //! Ranges with their uncertainty, and how several of one thing are made one.
 
-use bevy::math::ops;
+use crate::ops;
 
 /// A measured range and its standard deviation, m.
 #[derive(Clone, Copy, Debug, PartialEq)]

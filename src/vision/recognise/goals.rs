@@ -1,11 +1,12 @@
 //! Goals: the ends of a patch of a goal's colour are its posts.
 
-use bevy::math::{Vec2, ops};
+use bevy::math::Vec2;
 
 use super::estimate::{RangeEstimate, fuse};
 use super::known::KnownObjects;
 use super::perspective::Perspective;
 use crate::geometry::{Sighting, wrap_angle};
+use crate::ops;
 use crate::vision::blob::{ColourBlob, PixelBox};
 use crate::vision::colours::ColourClass;
 use crate::vision::landmark::{Landmark, LandmarkSighting};

@@ -9,7 +9,6 @@ mod walker;
 mod wheels;
 
 use bevy::ecs::query::QueryData;
-use bevy::math::ops;
 use bevy::prelude::*;
 use bevy_rapier2d::rapier::dynamics::RigidBody as Body;
 use smallvec::SmallVec;
@@ -20,6 +19,7 @@ pub use wheels::{Rigid, push_wheels};
 
 use crate::clock::Clock;
 use crate::geometry::wrap_angle;
+use crate::ops;
 use crate::rng::DiceStirred;
 use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;

@@ -7,6 +7,7 @@ use bevy_rapier2d::parry::shape::SharedShape;
 use bevy_rapier2d::rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use bevy_rapier2d::rapier::geometry::{Collider, ColliderSet};
 
+use super::pose::isometry;
 use super::walls::wall_boxes;
 use crate::geometry::{Pose, unit};
 use crate::pitch::{BallKind, Pitch};
@@ -37,7 +38,8 @@ impl Footprint {
     /// All walls of a pitch.
     pub fn of_walls(pitch: &Pitch) -> Footprint {
         let walls = wall_boxes(pitch).into_iter();
-        let parts = walls.map(|(at, half)| (Isometry::new(at, 0.0), SharedShape::cuboid(half.x, half.y)));
+        let parts =
+            walls.map(|(at, half)| (Isometry::from_translation(at), SharedShape::cuboid(half.x, half.y)));
         Footprint { parts: parts.collect() }
     }
 
@@ -100,10 +102,6 @@ fn place_on_body(part: &Collider) -> Isometry {
 pub(super) fn place_of(part: &Collider, bodies: &RigidBodySet) -> Isometry {
     let body = part.parent().and_then(|body| bodies.get(body));
     body.map_or(*part.position(), |body| *body.position() * place_on_body(part))
-}
-
-fn isometry(pose: Pose) -> Isometry {
-    Isometry::new(pose.position, pose.heading)
 }
 
 /// Between two places that are tried, m.

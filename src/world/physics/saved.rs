@@ -8,6 +8,7 @@ use bevy_rapier2d::rapier::dynamics::{CCDSolver, IntegrationParameters, IslandMa
 use bevy_rapier2d::rapier::geometry::{DefaultBroadPhase, NarrowPhase};
 use bevy_rapier2d::rapier::pipeline::PhysicsPipeline;
 
+use super::pose::pose_of;
 use crate::geometry::{Pose, Twist};
 use crate::robot::RobotStart;
 use crate::state::RegisterState;
@@ -71,7 +72,7 @@ impl SavedSimulation {
 fn tell_bodies(set: &RapierRigidBodySet) -> String {
     let mut text = String::new();
     for (handle, body) in set.bodies.iter() {
-        let (index, at, heading) = (handle.into_raw_parts().0, body.translation(), body.rotation().angle());
+        let (index, at, heading) = (handle.into_raw_parts().0, body.translation(), pose_of(body).heading);
         let (linear, angular) = (body.linvel(), body.angvel());
         let _ = writeln!(text, "body {index}: at {at} heading {heading} velocity {linear} turn {angular}");
     }

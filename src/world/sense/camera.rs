@@ -1,9 +1,9 @@
 //! What a colour-blob camera makes of the truth: field of view, range, occlusion, misses and noise. Pure but for the dice.
 
+use crate::ops;
 use crate::robot::range_deviation;
 use std::f32::consts::PI;
 
-use bevy::math::ops;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 

@@ -4,13 +4,13 @@
 use std::fmt;
 use std::sync::Arc;
 
-use bevy::math::ops;
 use bevy::prelude::*;
 
 use super::localisation::PoseError;
 use super::picture::{Canvas, Hall, Light, Moment, Shot};
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Sighting};
+use crate::ops;
 use crate::pitch::{BallKind, Pitch};
 use crate::rng::{Dice, DiceStirred, Seed};
 use crate::robot::{Fix, Frame, PlaceError, PutDown, Robot, RobotStart, SwitchedOn};

@@ -1,11 +1,11 @@
 //! Which landmarks a camera has in view, and how good a fix they give: goal posts, beacons and lines. Pure.
 
-use bevy::math::ops;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
 use super::camera::Blob;
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
+use crate::ops;
 use crate::pitch::Pitch;
 use crate::robot::Landmarks;
 

@@ -39,7 +39,7 @@ impl PoseError {
         if dice.chance(dt / localisation.jump_time) {
             return fresh;
         }
-        let kept = bevy::math::ops::exp(-dt / localisation.drift_time);
+        let kept = crate::ops::exp(-dt / localisation.drift_time);
         let added = (1.0 - kept * kept).sqrt();
         PoseError {
             offset: kept * self.offset + added * fresh.offset,

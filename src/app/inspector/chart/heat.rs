@@ -1,9 +1,8 @@
 //! How often each state and line of a chart was reached, from cold to hot. Pure.
 
-use bevy::math::ops;
-
 use super::graph::{ChartGraph, ChartWay};
 use crate::lab::coverage::{MachineCoverage, StateCoverage, TransitionCoverage};
+use crate::ops;
 
 /// The counts of a machine on its chart.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,6 +1,5 @@
 //! The page with the chart itself: what a person points at, clicks and moves on it.
 
-use bevy::math::ops;
 use bevy_egui::egui::{self, vec2};
 
 use super::canvas::{ChartScene, Marks};
@@ -11,6 +10,7 @@ use crate::app::inspector::breakpoints::{Breakpoints, StopAt};
 use crate::app::inspector::subject::SelectedRobot;
 use crate::app::view::colours;
 use crate::ids::RobotId;
+use crate::ops;
 use crate::strategy::StateRef;
 
 /// Width of the lists beside the chart, which are left out where the chart would be narrower than this, in points.

@@ -1,10 +1,11 @@
 //! What was recognised in a picture, where it lies in that, and what it is called. Pure.
 
-use bevy::math::{Vec2, Vec3, ops};
+use bevy::math::{Vec2, Vec3};
 
 use crate::app::view::format;
 use crate::geometry::Sighting;
 use crate::ids::Team;
+use crate::ops;
 use crate::vision::paint::{BEACON_HEIGHT, BEACON_RADIUS, beacon_colours, goal_colour};
 use crate::vision::{ColourClass, Gaze, KnownObjects, Landmark, LandmarkSighting, Optics, Recognised};
 

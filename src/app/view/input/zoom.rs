@@ -29,7 +29,7 @@ fn zoom(
         (wheel.read()).map(|turn| turn.y * if turn.unit == MouseScrollUnit::Line { 1.0 } else { LINE }).sum();
     let Some(at) = pointer.over_pitch.filter(|_| turned != 0.0) else { return };
     let smallest = FARTHEST * camera.fit(zone_to_show(&pitch, std::iter::empty())).scale;
-    *camera = camera.zoomed(bevy::math::ops::powf(1.15, turned), at, smallest);
+    *camera = camera.zoomed(crate::ops::powf(1.15, turned), at, smallest);
 }
 
 /// The smallest scale, as a share of that which fits.

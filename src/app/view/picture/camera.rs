@@ -130,7 +130,7 @@ fn approach_fit(
     let waiting = (waiting.iter().filter(|_| !is_open(&pitch)))
         .map(|(pose, robot)| (pose.position, extent(&robot.kind) + BENCH));
     let goal = camera.fit(zone_to_show(&pitch, waiting));
-    let share = if camera.settled { 1.0 - bevy::math::ops::exp(-APPROACH * time.delta_secs()) } else { 1.0 };
+    let share = if camera.settled { 1.0 - crate::ops::exp(-APPROACH * time.delta_secs()) } else { 1.0 };
     let settled = true;
     *camera = PitchCamera {
         centre: camera.centre.lerp(goal.centre, share),

@@ -2,10 +2,11 @@
 
 use std::f32::consts::TAU;
 
-use bevy::math::{Vec2, ops};
+use bevy::math::Vec2;
 
 use super::material::{FULL_SHADE, TOP_SHADE};
 use crate::geometry::Zone;
+use crate::ops;
 
 /// How the light of a hall is spread over it: a smooth pattern between -1 and 1, looked up on a grid.
 #[derive(Clone, Debug)]

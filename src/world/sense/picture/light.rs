@@ -1,9 +1,9 @@
 //! The light of the hall: how bright and of which colour it is, how uneven, and how it drifts.
 
-use bevy::math::ops;
 use serde::{Deserialize, Serialize};
 
 use crate::data::{Bound, Fault, Validate, check_all};
+use crate::ops;
 use crate::rng::Dice;
 
 /// The light of a hall, as data. What is not given is the light that cameras are made for, without drift.

@@ -1,6 +1,6 @@
 //! What moves, at a moment: robots and the ball.
 
-use bevy::math::{Vec2, ops};
+use bevy::math::Vec2;
 
 use super::material::Material;
 use super::raster::Raster;
@@ -8,6 +8,7 @@ use super::shot::Viewpoint;
 use super::solid::{Outline, Solids, circle, level, rectangle};
 use crate::geometry::Pose;
 use crate::ids::RobotId;
+use crate::ops;
 use crate::robot::{Drive, RobotKind, jaws};
 use crate::vision::ColourClass;
 use crate::vision::paint::{HeightBand, RobotPaint};

@@ -1,9 +1,10 @@
 //! One picture to be taken, and how points of the hall come onto it.
 
-use bevy::math::{Vec2, ops};
+use bevy::math::Vec2;
 
 use crate::geometry::{Pose, unit};
 use crate::ids::RobotId;
+use crate::ops;
 use crate::vision::{CameraSettings, Gaze, Optics};
 
 /// A picture that a robot's camera is about to take.

@@ -132,7 +132,7 @@ pub fn rectangle(middle: Vec2, half: Vec2) -> [Vec2; 4] {
 pub fn circle(middle: Vec2, radius: f32) -> Outline {
     let half = std::f32::consts::FRAC_PI_8;
     // The mean width of a convex polygon is its circumference over π.
-    let reach = radius * half / bevy::math::ops::sin(half);
+    let reach = radius * half / crate::ops::sin(half);
     (0..8).map(|corner| middle + crate::geometry::unit((2 * corner) as f32 * half) * reach).collect()
 }
 

@@ -6,7 +6,7 @@ use bevy::math::{Vec2, Vec3};
 
 use super::*;
 use crate::data::Source;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, angle};
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
 use crate::rng::{Dice, Seed};
@@ -126,7 +126,7 @@ impl HypotWith for f32 {
 #[test]
 fn a_beacon_shows_its_two_colours_one_above_the_other_where_it_stands() {
     let beacon = Vec2::new(1.35, 2.1);
-    let from = Pose::new(0.2, 0.8, (beacon - Vec2::new(0.2, 0.8)).to_angle());
+    let from = Pose::new(0.2, 0.8, angle(beacon - Vec2::new(0.2, 0.8)));
     let (mut studio, shot) = (Studio::new(), shot(from, -0.05));
     for (class, height) in [(ColourClass::Pink, 0.35), (ColourClass::SkyBlue, 0.25)] {
         let (seen, meant) = (studio.centroid(&shot, class), projected(&shot, beacon, height));

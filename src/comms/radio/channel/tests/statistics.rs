@@ -86,7 +86,7 @@ fn latency_is_a_fixed_time_and_an_exponential_jitter() {
     assert!((deviation - 0.01).abs() < 1.5 * tolerance, "{deviation}");
     assert!(latencies.iter().all(|latency| *latency >= 0.005));
     let long: Vec<bool> = latencies.iter().map(|latency| *latency > 0.035).collect();
-    assert!(fits(share(&long), (-3.0f64).exp(), N), "{}", share(&long));
+    assert!(fits(share(&long), libm::exp(-3.0), N), "{}", share(&long));
 }
 
 #[test]

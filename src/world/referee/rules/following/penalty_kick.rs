@@ -3,7 +3,7 @@
 
 use bevy::prelude::Vec2;
 
-use crate::geometry::{Attacking, Pose};
+use crate::geometry::{Attacking, Pose, angle};
 use crate::ids::{RobotId, Team};
 use crate::world::gamecontroller::referee_box::BoxView;
 use crate::world::referee::decision::{Decision, PlacementReason};
@@ -91,9 +91,9 @@ fn place(
     for (robot, _) in observation.on_field(state) {
         let inwards = (Vec2::ZERO - goal).normalize_or(Vec2::X);
         let at = if duel.kicker == Some(robot) {
-            Pose { position: ball + 2.0 * room * inwards, heading: (-inwards).to_angle() }
+            Pose { position: ball + 2.0 * room * inwards, heading: angle(-inwards) }
         } else if duel.keeper == Some(robot) {
-            Pose { position: goal + room * inwards, heading: inwards.to_angle() }
+            Pose { position: goal + room * inwards, heading: angle(inwards) }
         } else {
             let number = &mut waiting[robot.team.index()];
             let row = f32::from(number.div_ceil(2)) * 2.0 * room;

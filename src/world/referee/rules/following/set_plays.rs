@@ -4,7 +4,7 @@
 use bevy::prelude::Vec2;
 
 use super::super::returns;
-use crate::geometry::Pose;
+use crate::geometry::{Pose, angle, unit};
 use crate::ids::{RobotId, Team};
 use crate::world::gamecontroller::control::SetPlay;
 use crate::world::gamecontroller::referee_box::BoxView;
@@ -124,7 +124,7 @@ fn place_away(ball: Vec2, from: Vec2, distance: f32, laws: &Laws, others: &[Vec2
     let outwards = (from - ball).try_normalize().unwrap_or_else(|| -ball.normalize_or(Vec2::X));
     let steps = (0..2 * DIRECTIONS).map(|step| {
         let way = f32::from(step.div_ceil(2)) * std::f32::consts::PI / f32::from(DIRECTIONS);
-        Vec2::from_angle(if step % 2 == 1 { way } else { -way }).rotate(outwards)
+        unit(if step % 2 == 1 { way } else { -way }).rotate(outwards)
     });
     let half = laws.pitch.half_size() - room;
     let mut places = steps.map(|way| (ball + distance * way, way));
@@ -132,7 +132,7 @@ fn place_away(ball: Vec2, from: Vec2, distance: f32, laws: &Laws, others: &[Vec2
         at.abs().cmple(half).all() && others.iter().all(|other| other.distance(*at) >= 2.0 * room)
     };
     let (position, way) = places.find(|(at, _)| is_free(at))?;
-    Some(Pose { position, heading: (-way).to_angle() })
+    Some(Pose { position, heading: angle(-way) })
 }
 
 /// Directions on each side that are tried.
