@@ -9,6 +9,7 @@ use super::holds::HoldFigures;
 use super::kicks::{GripFigures, KickFigures, count_falls};
 use super::loose_balls::LooseBalls;
 use super::overlap::BallOverlap;
+use super::places::PlaceFigures;
 use super::play_tick::PlayTick;
 use super::pursuit::Pursuit;
 use super::removals::Removals;
@@ -25,6 +26,8 @@ pub struct Record {
     pub possession: [f64; 2],
     /// How much the teams crowded the ball.
     pub crowding: Crowding,
+    /// Where the ball and the robots were.
+    pub places: PlaceFigures,
     /// Who drove at the ball, told from what robots do.
     pub pursuit: [Pursuit; 2],
     /// How well each team's ball booking has worked, told from what its robots believe.
@@ -64,6 +67,7 @@ impl Record {
             digest: seed.0,
             possession: [0.0; 2],
             crowding: Crowding::default(),
+            places: PlaceFigures::default(),
             pursuit: Default::default(),
             bookings: [BookingFigures::default(); 2],
             contacts: RobotContacts::default(),
@@ -86,6 +90,7 @@ impl Record {
         self.note_possession(tick);
         self.note_ways(tick);
         self.crowding.update(tick);
+        self.places.update(tick);
         self.contacts.update(&tick.touching, tick.now, tick.dt);
         self.loose_balls.update(tick);
         for team in Team::BOTH {

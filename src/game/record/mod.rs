@@ -10,6 +10,7 @@ mod holds;
 mod kicks;
 mod loose_balls;
 mod overlap;
+mod places;
 mod play_tick;
 mod pursuit;
 mod removals;
@@ -31,6 +32,7 @@ pub use holds::{BACK_WITHIN, HoldFigures};
 pub use kicks::{GripFigures, KickFigures};
 pub use loose_balls::{LOOSE_AFTER, LooseBalls, WON_AFTER};
 pub use overlap::{BallOverlap, TOLERANCE};
+pub use places::PlaceFigures;
 use play_tick::PlayView;
 pub use pursuit::{FARTHER, PING_PONG, Pursuit};
 pub use removals::Removals;
@@ -73,6 +75,7 @@ fn measure(
     }
     let mut tick = view.tick();
     (tick.now, tick.dt) = (record.played, f64::from(clock.dt));
+    tick.ball_ahead = state.home_attacks.turn(tick.ball).x;
     tick.ball_is_put = calls.0.iter().any(|call| matches!(call, Decision::BallPlaced { .. }));
     record.update(&tick);
 }

@@ -22,6 +22,8 @@ pub(super) struct PlayTick {
     /// Length of the tick, s.
     pub dt: f64,
     pub ball: Vec2,
+    /// How far the ball is from the centre towards the goal that home attacks, m.
+    pub ball_ahead: f32,
     pub ball_velocity: Vec2,
     /// Whether the referee has put the ball somewhere.
     pub ball_is_put: bool,

@@ -1,0 +1,70 @@
+//! Where play takes place: on whose side the ball is, and how far team mates are from each other.
+
+use super::play_tick::PlayTick;
+use crate::ids::Team;
+
+/// Where the ball and the robots were.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlaceFigures {
+    /// How far the ball was from the centre towards the goal that home attacks, summed over time, m s.
+    ball_ahead: f64,
+    /// From each robot to its nearest team mate summed over time, m s; home first.
+    to_mates: [f64; 2],
+    /// The time of all robots that had a team mate, s.
+    with_mates: [f64; 2],
+}
+
+impl PlaceFigures {
+    pub(super) fn update(&mut self, tick: &PlayTick) {
+        self.ball_ahead += f64::from(tick.ball_ahead) * tick.dt;
+        for team in Team::BOTH {
+            for player in tick.of(team) {
+                let mates = tick.of(team).filter(|mate| mate.id != player.id);
+                let nearest =
+                    mates.map(|mate| mate.position.distance_squared(player.position)).reduce(f32::min);
+                if let Some(squared) = nearest {
+                    self.to_mates[team.index()] += f64::from(squared.sqrt()) * tick.dt;
+                    self.with_mates[team.index()] += tick.dt;
+                }
+            }
+        }
+    }
+
+    /// How far the ball was from the centre towards the goal that a team attacks, summed over the time of play, m s.
+    pub fn territory(&self, team: Team) -> f64 {
+        match team {
+            Team::Home => self.ball_ahead,
+            Team::Away => -self.ball_ahead,
+        }
+    }
+
+    /// The mean distance from a robot of the team to its nearest team mate, m; 0 if it never had one.
+    pub fn mate_distance(&self, team: Team) -> f64 {
+        let (sum, time) = (self.to_mates[team.index()], self.with_mates[team.index()]);
+        if time > 0.0 { sum / time } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::play_tick::stage::*;
+    use super::*;
+
+    #[test]
+    fn the_nearest_mate_counts_and_a_robot_alone_has_none() {
+        let mut places = PlaceFigures::default();
+        places.update(&tick(&[player(HOME_1, 0.0, 0.0), player(HOME_2, 3.0, 4.0), player(AWAY_1, 0.0, 0.1)]));
+        assert!((places.mate_distance(Team::Home) - 5.0).abs() < 1e-6);
+        assert_eq!(places.mate_distance(Team::Away), 0.0);
+    }
+
+    #[test]
+    fn the_ball_is_in_the_territory_of_the_team_that_it_is_near_the_goal_of() {
+        let mut places = PlaceFigures::default();
+        let mut tick = tick(&[]);
+        tick.ball_ahead = -2.0;
+        places.update(&tick);
+        assert!((places.territory(Team::Home) + 0.2).abs() < 1e-6);
+        assert_eq!(places.territory(Team::Away), -places.territory(Team::Home));
+    }
+}
