@@ -21,6 +21,8 @@ pub struct AssetFolder {
     root: PathBuf,
     /// Its files, if they are not on the disk.
     kept: Option<Arc<AssetTexts>>,
+    /// Files that are other than there.
+    changed: Arc<AssetTexts>,
     notes: ReadTexts,
 }
 
@@ -46,7 +48,7 @@ impl AssetFolder {
 
     /// The folder at `root`, which need not exist.
     pub fn new(root: impl Into<PathBuf>) -> AssetFolder {
-        AssetFolder { root: root.into(), kept: None, notes: ReadTexts::default() }
+        AssetFolder { root: root.into(), kept: None, changed: Arc::default(), notes: ReadTexts::default() }
     }
 
     /// The folder that was at `root` when these files were read: those that matter, in it and elsewhere.
@@ -60,12 +62,19 @@ impl AssetFolder {
         (AssetFolder { notes: notes.clone(), ..self.clone() }, notes)
     }
 
+    /// The same folder, with these files in place of those that are there.
+    pub fn with_texts(&self, texts: AssetTexts) -> AssetFolder {
+        let changed = AssetTexts::clone(&self.changed).into_iter().chain(texts).collect();
+        AssetFolder { changed: Arc::new(changed), ..self.clone() }
+    }
+
     /// Reads a file, in the folder or elsewhere.
     ///
     /// # Errors
     /// As [`Source::read`].
     pub fn read(&self, path: &Path) -> Result<Source, DataError> {
         let source = match &self.kept {
+            _ if self.changed.contains_key(path) => Source::new(path, &self.changed[path]),
             None => Source::read(path)?,
             Some(texts) => {
                 let text =
@@ -79,7 +88,8 @@ impl AssetFolder {
 
     /// Whether there is such a file.
     pub fn has_file(&self, path: &Path) -> bool {
-        self.kept.as_ref().map_or_else(|| path.is_file(), |texts| texts.contains_key(path))
+        let is_there = || self.kept.as_ref().map_or_else(|| path.is_file(), |texts| texts.contains_key(path));
+        self.changed.contains_key(path) || is_there()
     }
 
     /// The folder itself.
@@ -211,6 +221,20 @@ mod tests {
         assert_eq!(assets.files(AssetKind::Radio), Ok(Vec::new()));
         let error = assets.files(AssetKind::Robot).unwrap_err();
         assert!(error.message.starts_with("cannot be read: "), "{error}");
+    }
+
+    #[test]
+    fn a_changed_text_is_read_in_place_of_the_file_and_noted() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("radios/good.ron");
+        fs::create_dir(folder.path().join("radios")).unwrap();
+        fs::write(&path, "(loss: 0.1)").unwrap();
+        let assets = AssetFolder::new(folder.path());
+        let changed = assets.with_texts([(path.clone(), "(loss: 0.9)".to_owned())].into());
+        let (changed, notes) = changed.noting();
+        assert_eq!(changed.read(&path).unwrap().text, "(loss: 0.9)");
+        assert_eq!(notes.texts()[&path], "(loss: 0.9)");
+        assert_eq!(assets.read(&path).unwrap().text, "(loss: 0.1)");
     }
 
     #[test]

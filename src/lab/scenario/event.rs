@@ -75,6 +75,42 @@ pub enum Event {
     InitiateSwap { robot: RobotId, roles: Vec<(String, String)> },
 }
 
+impl Event {
+    /// The same for the teams on each other's sides: what happens to a robot of home happens to that of away, at the place that
+    /// is opposite through the centre.
+    #[must_use]
+    pub fn with_sides_swapped(&self) -> Event {
+        let other = |robot: RobotId| RobotId { team: robot.team.opponent(), ..robot };
+        let others = |robots: &[RobotId]| robots.iter().copied().map(other).collect();
+        match self {
+            Event::Crash(robot) => Event::Crash(other(*robot)),
+            Event::Freeze(robot) => Event::Freeze(other(*robot)),
+            Event::Deaf(robot) => Event::Deaf(other(*robot)),
+            Event::Mute(robot) => Event::Mute(other(*robot)),
+            Event::Penalise(robot) => Event::Penalise(other(*robot)),
+            Event::Revive { robot, memory } => Event::Revive { robot: other(*robot), memory: *memory },
+            Event::CutOff(robot) => Event::CutOff(other(*robot)),
+            Event::Reconnect(robot) => Event::Reconnect(other(*robot)),
+            Event::Partition(one, two) => Event::Partition(others(one), others(two)),
+            Event::Heal | Event::Jam(_) | Event::Radio(_) => self.clone(),
+            Event::Ball { at, velocity } => Event::Ball { at: -at, velocity: -velocity },
+            Event::Push { robot, by } => Event::Push { robot: other(*robot), by: -by },
+            Event::Kidnap { robot, to, facing } => {
+                Event::Kidnap { robot: other(*robot), to: -to, facing: facing + HALF_TURN }
+            }
+            Event::Mislead { robot, by, turn } => {
+                Event::Mislead { robot: other(*robot), by: -by, turn: *turn }
+            }
+            Event::InitiateSwap { robot, roles } => {
+                Event::InitiateSwap { robot: other(*robot), roles: roles.clone() }
+            }
+        }
+    }
+}
+
+/// Degrees.
+const HALF_TURN: f32 = 180.0;
+
 /// A piece of teamwork that a scenario may be about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Dependency {

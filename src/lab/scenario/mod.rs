@@ -14,6 +14,7 @@ mod plan;
 mod report;
 mod run;
 mod scene;
+mod script;
 #[cfg(test)]
 mod stage;
 mod tally;
@@ -27,7 +28,9 @@ pub use event::{Dependency, Event, TimedEvent};
 pub use file::{BallFile, BallPlaces, PlayerFile, Referee, ScenarioFile, Seeds, SideFile};
 pub use judge::{Failure, Judge, Verdict};
 pub use plan::{ScenarioPlan, ScenarioRef};
+pub(in crate::lab) use plan::{has, switch_off};
 pub use report::{ScenarioReport, ScenarioRow, ScenarioRun, junit, rows};
 pub use run::{RunWatcher, observe};
 pub use scene::{RobotScene, Scene};
+pub(in crate::lab) use script::{check_event_of_match, requests};
 pub use tally::{ProbabilityCount, ScenarioOutcome};

@@ -8,18 +8,14 @@ use bevy::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::check::{Known, KnownTeam, Scenario, ScenarioPlayer, check};
-use super::event::{Dependency, Event};
+use super::event::Dependency;
 use super::file::{Referee, ScenarioFile, SideFile};
-use crate::clock::{Clock, TICK_HZ};
-use crate::comms::radio::Partition;
+use super::script::requests;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, is_path, no_such};
-use crate::game::requests::{BodyChange, RadioChange, Request, RobotChange};
 use crate::game::{Choice, DEFAULT_MATCH, MatchPlan, Placed, Situation, TeamPlan, checked, file_named};
-use crate::geometry::Pose;
-use crate::ids::{RobotId, Team};
+use crate::ids::Team;
 use crate::pitch::{BallKind, Pitch};
-use crate::protocol::role_swap::{PaperRules, Reassignment, RoleIndex};
-use crate::robot::RobotFailure;
+use crate::protocol::role_swap::PaperRules;
 use crate::strategy::Strategy;
 use crate::strategy::teamwork::Protocol;
 
@@ -156,7 +152,7 @@ impl ScenarioPlan {
         let mut known = Known {
             pitch: &pitch,
             ball: &usual.ball,
-            teams: teams.each_ref().map(known),
+            teams: teams.each_ref().map(KnownTeam::of),
             radios: assets.names(AssetKind::Radio),
         };
         if file.away.is_none() {
@@ -180,11 +176,11 @@ impl ScenarioPlan {
                 cast.map_err(|message| source.error_at(&at, message))?;
             }
         }
-        match_plan.script = script(assets, &scenario, &match_plan)?;
+        match_plan.script = requests(assets, &scenario.script, &match_plan)?;
         let (pitch, source) = (file.pitch.clone(), source.clone());
         let plan = ScenarioPlan { origin, scenario, game, pitch, source, match_plan };
         match plan.scenario.depends_on {
-            Some(dependency) if !plan.has(dependency) => {
+            Some(dependency) if !has(&plan.match_plan.team(Team::Home).strategy, dependency) => {
                 let at = Field::root().key("depends_on");
                 Err(plan.source.error_at(&at, format!("{dependency} is not on in the home team's strategy")))
             }
@@ -224,17 +220,19 @@ impl ScenarioPlan {
         }
         plan
     }
+}
 
-    fn has(&self, dependency: Dependency) -> bool {
-        let teamwork = &self.match_plan.team(Team::Home).strategy.teamwork;
-        match dependency.mechanism() {
-            Some(mechanism) => teamwork.has(mechanism),
-            None => teamwork.role_swap.as_ref().is_some_and(|swap| swap.protocol == Protocol::Hardened),
-        }
+/// Whether a strategy has a piece of teamwork.
+pub(in crate::lab) fn has(strategy: &Strategy, dependency: Dependency) -> bool {
+    let teamwork = &strategy.teamwork;
+    match dependency.mechanism() {
+        Some(mechanism) => teamwork.has(mechanism),
+        None => teamwork.role_swap.as_ref().is_some_and(|swap| swap.protocol == Protocol::Hardened),
     }
 }
 
-fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
+/// Switches a piece of a strategy's teamwork off.
+pub(in crate::lab) fn switch_off(strategy: &mut Strategy, dependency: Dependency) {
     let teamwork = &mut strategy.teamwork;
     match dependency.mechanism() {
         Some(mechanism) => teamwork.mechanisms = teamwork.mechanisms.without(mechanism),
@@ -257,29 +255,9 @@ fn team(
     TeamPlan::read(assets, &files, (source, side), (pitch, ball))
 }
 
-fn known(team: &TeamPlan) -> KnownTeam<'_> {
-    let strategy = &team.strategy;
-    let states = strategy.machines.iter().flat_map(|machine| {
-        let composites = machine.composites.iter().map(|state| state.name.as_str());
-        composites.chain(machine.states.iter().map(|state| state.name.as_str()))
-    });
-    KnownTeam {
-        kick_off: &strategy.kick_off.ours,
-        line_ups: strategy.line_ups.iter().map(|(name, places)| (name.as_str(), &places[..])).collect(),
-        kind: Some(&team.kind),
-        roles: strategy.roles.iter().map(|role| role.name.as_str()).collect(),
-        activities: states.collect(),
-    }
-}
-
 /// The roles that a scenario gives to the players of a side, by number.
 fn cast(players: &[ScenarioPlayer]) -> Vec<(u8, String)> {
     players.iter().filter_map(|player| Some((player.id.number, player.role.clone()?))).collect()
-}
-
-fn role(strategy: &Strategy, name: &str) -> Option<RoleIndex> {
-    let index = strategy.roles.iter().position(|role| role.name == name)?;
-    RoleIndex::try_from(index).ok()
 }
 
 fn situation(scenario: &Scenario) -> Situation {
@@ -290,56 +268,4 @@ fn situation(scenario: &Scenario) -> Situation {
         ball: scenario.first_place(),
         velocity: scenario.velocity,
     }
-}
-
-fn script(
-    assets: &AssetFolder,
-    scenario: &Scenario,
-    plan: &MatchPlan,
-) -> Result<Vec<(u64, Request)>, DataError> {
-    let clock = Clock::new(TICK_HZ);
-    let requests = scenario.script.iter().map(|event| {
-        let tick = (event.at / clock.dt).round() as u64;
-        Ok((tick, request(assets, &event.what, plan)?))
-    });
-    requests.collect()
-}
-
-fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Request, DataError> {
-    let fail = |robot: RobotId, failure| Request::Robot(robot, RobotChange::Fail(failure));
-    Ok(match event {
-        Event::Crash(robot) => fail(*robot, RobotFailure::Crashed),
-        Event::Freeze(robot) => fail(*robot, RobotFailure::Frozen),
-        Event::Deaf(robot) => fail(*robot, RobotFailure::Deaf),
-        Event::Mute(robot) => fail(*robot, RobotFailure::Mute),
-        Event::Penalise(robot) => Request::Robot(*robot, RobotChange::Penalise),
-        Event::Revive { robot, memory } => Request::Robot(*robot, RobotChange::Revive(*memory)),
-        Event::CutOff(robot) => Request::Radio(RadioChange::CutOff(*robot)),
-        Event::Reconnect(robot) => Request::Radio(RadioChange::Reconnect(*robot)),
-        Event::Partition(one, other) => Request::Radio(RadioChange::Part(Partition {
-            reason: "the scenario's script".into(),
-            one: one.iter().copied().collect(),
-            other: other.iter().copied().collect(),
-        })),
-        Event::Heal => Request::Radio(RadioChange::Heal),
-        Event::Jam(jammed) => Request::Radio(RadioChange::Jam(*jammed)),
-        Event::Radio(name) => {
-            Request::Radio(RadioChange::Change(checked(assets, &assets.file(AssetKind::Radio, name))?))
-        }
-        Event::Ball { at, velocity } => Request::Body(BodyChange::Ball { at: *at, velocity: *velocity }),
-        Event::Push { robot, by } => Request::Body(BodyChange::Push { robot: *robot, by: *by }),
-        Event::Kidnap { robot, to, facing } => {
-            let to = Pose { position: *to, heading: facing.to_radians() };
-            Request::Body(BodyChange::Kidnap { robot: *robot, to })
-        }
-        Event::Mislead { robot, by, turn } => {
-            Request::Robot(*robot, RobotChange::Mislead { by: *by, turn: turn.to_radians() })
-        }
-        Event::InitiateSwap { robot, roles } => {
-            let strategy = &plan.team(robot.team).strategy;
-            let pair = |(from, to): &(String, String)| Some((role(strategy, from)?, role(strategy, to)?));
-            let pairs = roles.iter().filter_map(pair).collect();
-            Request::Robot(*robot, RobotChange::Swap(Reassignment::Roles(pairs)))
-        }
-    })
 }

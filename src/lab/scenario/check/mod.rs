@@ -8,6 +8,8 @@ mod sides;
 #[cfg(test)]
 mod tests;
 
+pub(super) use script::check_event;
+
 use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
@@ -18,6 +20,7 @@ use super::file::{BallPlaces, Referee, ScenarioFile, Seeds};
 use super::watch::ticks;
 use crate::comms::radio::FaultRule;
 use crate::data::{Bound, DataError, Field, Source, check_count, no_such};
+use crate::game::TeamPlan;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::{BallKind, Pitch};
@@ -129,6 +132,24 @@ pub struct KnownTeam<'a> {
     pub roles: Vec<&'a str>,
     /// The states of all its machines.
     pub activities: Vec<&'a str>,
+}
+
+impl<'a> KnownTeam<'a> {
+    /// What the strategy of a team holds, and its robots' kind.
+    pub(in crate::lab::scenario) fn of(team: &'a TeamPlan) -> KnownTeam<'a> {
+        let strategy = &team.strategy;
+        let states = strategy.machines.iter().flat_map(|machine| {
+            let composites = machine.composites.iter().map(|state| state.name.as_str());
+            composites.chain(machine.states.iter().map(|state| state.name.as_str()))
+        });
+        KnownTeam {
+            kick_off: &strategy.kick_off.ours,
+            line_ups: strategy.line_ups.iter().map(|(name, places)| (name.as_str(), &places[..])).collect(),
+            kind: Some(&team.kind),
+            roles: strategy.roles.iter().map(|role| role.name.as_str()).collect(),
+            activities: states.collect(),
+        }
+    }
 }
 
 /// Checks a scenario file.

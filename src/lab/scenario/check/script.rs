@@ -1,10 +1,20 @@
 //! Checks of what happens to radio and robots: fault rules and the events of the script.
 
-use super::{Checked, Checker};
+use super::{Checked, Checker, Known};
 use crate::comms::radio::FaultRule;
-use crate::data::{Bound, Field, Validate, no_such};
+use crate::data::{Bound, Field, Source, Validate, no_such};
 use crate::ids::{RobotId, Team};
 use crate::lab::scenario::event::{Event, TimedEvent};
+
+/// Checks an event of something that goes on for as long as it likes and in which these robots take part.
+pub(in crate::lab::scenario) fn check_event(
+    (source, at): (&Source, &Field),
+    event: &TimedEvent,
+    known: &Known,
+    robots: Vec<RobotId>,
+) -> Checked<()> {
+    Checker { source, known, seconds: f32::INFINITY, seeds: 0, robots, standing: Vec::new() }.event(event, at)
+}
 
 impl Checker<'_> {
     pub(super) fn rule(&self, rule: &FaultRule, at: &Field) -> Checked<()> {
