@@ -21,13 +21,15 @@ pub enum AssetKind {
     Camera,
     /// How good the radio is.
     Radio,
+    /// Matches that are to be compared.
+    Experiment,
     /// Where robots and computers are.
     Addresses,
 }
 
 impl AssetKind {
     /// Every kind.
-    pub const ALL: [AssetKind; 9] = [
+    pub const ALL: [AssetKind; 10] = [
         AssetKind::Strategy,
         AssetKind::Scenario,
         AssetKind::Match,
@@ -36,6 +38,7 @@ impl AssetKind {
         AssetKind::Sensing,
         AssetKind::Camera,
         AssetKind::Radio,
+        AssetKind::Experiment,
         AssetKind::Addresses,
     ];
 
@@ -50,6 +53,7 @@ impl AssetKind {
             AssetKind::Sensing => "sensing",
             AssetKind::Camera => "cameras",
             AssetKind::Radio => "radios",
+            AssetKind::Experiment => "experiments",
             AssetKind::Addresses => "addresses",
         }
     }
@@ -76,6 +80,7 @@ impl fmt::Display for AssetKind {
             AssetKind::Sensing => "sensing preset",
             AssetKind::Camera => "camera",
             AssetKind::Radio => "radio",
+            AssetKind::Experiment => "experiment",
             AssetKind::Addresses => "table of addresses",
         })
     }

@@ -4,6 +4,7 @@
 
 pub mod coverage;
 pub mod duel;
+pub mod experiment;
 pub mod export;
 pub mod eyes;
 pub mod replay;

@@ -2,6 +2,7 @@
 
 mod coverage;
 mod duel;
+mod experiment;
 mod export;
 mod fit_eyes;
 #[cfg(unix)]

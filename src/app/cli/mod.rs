@@ -5,11 +5,13 @@ mod chaos;
 mod check;
 mod duel;
 mod ending;
+mod experiment;
 mod export;
 mod fit_eyes;
 mod heavy;
 mod interrupt;
 mod kinds;
+mod merge;
 mod options;
 mod picture_file;
 mod play;
@@ -60,6 +62,12 @@ enum CliCommand {
     /// Let a few robots of two strategies fight for a free ball, many times, and print the share that each side wins.
     #[command(after_help = EXIT_CODES)]
     Duel(duel::DuelCommand),
+    /// Play the matches of an experiment on all cores, and write what was measured as tables.
+    #[command(after_help = EXIT_CODES)]
+    Experiment(experiment::ExperimentCommand),
+    /// Put the parts of an experiment together that were played on several machines.
+    #[command(after_help = EXIT_CODES)]
+    Merge(merge::MergeCommand),
     /// Take pictures of random moments with a calibrated camera, and print the numbers of the fast model of eyes that fit them.
     #[command(after_help = EXIT_CODES)]
     FitEyes(fit_eyes::FitEyesCommand),
@@ -107,6 +115,8 @@ impl Cli {
             Some(CliCommand::Replay(replay)) => replay.run(&assets, &mut out),
             Some(CliCommand::Why(why)) => why.run(&mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
+            Some(CliCommand::Experiment(experiment)) => experiment.run(&assets, &mut out),
+            Some(CliCommand::Merge(merge)) => merge.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
             Some(CliCommand::Export(export)) => export.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),

@@ -1,0 +1,91 @@
+//! The folder in which an experiment leaves its tables, and from which it goes on.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use crate::app::cli::ending::CommandError;
+use crate::app::whole_file::write_whole;
+use crate::data::{DataError, Source};
+use crate::lab::experiment::{
+    ExperimentPlan, ExperimentRow, TableWriter, read_csv, write_csv, write_parquet,
+};
+
+/// A folder with the design, `design.ron`, and the tables, `rows.csv` and `rows.parquet`.
+pub(in crate::app::cli) struct ResultsFolder(PathBuf);
+
+impl ResultsFolder {
+    pub fn new(path: PathBuf) -> ResultsFolder {
+        ResultsFolder(path)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// The table that grows match by match.
+    pub fn csv(&self) -> PathBuf {
+        self.0.join("rows.csv")
+    }
+
+    fn design(&self) -> PathBuf {
+        self.0.join("design.ron")
+    }
+
+    /// Makes the folder, or goes on in it: the rows that are there.
+    ///
+    /// # Errors
+    /// If it holds something else than matches of this very experiment, or cannot be written.
+    pub fn begin(&self, plan: &ExperimentPlan) -> Result<Vec<ExperimentRow>, CommandError> {
+        fs::create_dir_all(&self.0).map_err(CommandError::file(&self.0))?;
+        let rows = self.read(plan)?;
+        let design = self.design();
+        if !design.is_file() {
+            write_whole(&design, plan.text.as_bytes()).map_err(CommandError::file(&design))?;
+        }
+        // What a crash has left of a line would spoil the next one.
+        self.write_table(plan, &rows)?;
+        Ok(rows)
+    }
+
+    /// The rows that are there; none if there is no table.
+    ///
+    /// # Errors
+    /// If it holds something else than matches of this very experiment.
+    pub fn read(&self, plan: &ExperimentPlan) -> Result<Vec<ExperimentRow>, DataError> {
+        let design = self.design();
+        match fs::read_to_string(&design) {
+            Ok(text) if text == plan.text => {}
+            Ok(_) => {
+                return Err(DataError::new(design, "is another experiment; name another folder with --out"));
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            Err(error) => return Err(DataError::new(design, format!("cannot be read: {error}"))),
+        }
+        let path = self.csv();
+        if !path.exists() {
+            return Ok(Vec::new());
+        }
+        read_csv(plan, &path, &Source::read(&path)?.text)
+    }
+
+    /// The table, to add rows to.
+    pub fn table(&self, plan: &ExperimentPlan) -> Result<TableWriter, CommandError> {
+        let path = self.csv();
+        TableWriter::open(&path, plan).map_err(CommandError::file(&path))
+    }
+
+    /// Writes both tables, in the order of the rows.
+    pub fn finish(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Result<(), CommandError> {
+        self.write_table(plan, rows)?;
+        let (path, mut bytes) = (self.0.join("rows.parquet"), Vec::new());
+        let written = write_parquet(plan, rows, &mut bytes).and_then(|()| write_whole(&path, &bytes));
+        written.map_err(CommandError::file(&path))
+    }
+
+    fn write_table(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Result<(), CommandError> {
+        let (path, mut bytes) = (self.csv(), Vec::new());
+        let written = write_csv(plan, rows, &mut bytes).and_then(|()| write_whole(&path, &bytes));
+        written.map_err(CommandError::file(&path))
+    }
+}

@@ -1,0 +1,153 @@
+//! `touchline experiment`: the matches of a design, on all cores, as tables.
+
+mod folder;
+mod shard;
+
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+pub(super) use self::folder::ResultsFolder;
+use self::shard::Shard;
+use super::ending::{CommandError, Ending, print_json, tell};
+use super::interrupt::Interrupt;
+use super::progress::progress_bar;
+use crate::data::{AssetFolder, DataError};
+use crate::lab::experiment::{ExperimentPlan, ExperimentRow, ExperimentSummary, Metric};
+
+#[derive(Args, Debug)]
+pub(super) struct ExperimentCommand {
+    /// The experiment: a name among the assets or a path.
+    file: String,
+    /// The folder of the tables; the name of the experiment with `.results` behind it if not given. What is there already is
+    /// not played again.
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    /// Play only this part of the matches, such as 2/8 for the second of eight; `merge` puts the parts together.
+    #[arg(long, value_name = "K/N", conflicts_with = "row")]
+    shard: Option<Shard>,
+    /// Play the match of this row alone, print its figures, and compare it with the table if it is there.
+    #[arg(long, value_name = "N")]
+    row: Option<u64>,
+    /// Print the summary as JSON.
+    #[arg(long, conflicts_with = "row")]
+    json: bool,
+}
+
+impl ExperimentCommand {
+    pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
+        let plan = ExperimentPlan::read(assets, &self.file)?;
+        let folder = ResultsFolder::new(self.out.clone().unwrap_or_else(|| usual_folder(&self.file)));
+        match self.row {
+            Some(row) => play_row(&plan, row, &folder, out),
+            None => self.play(&plan, &folder, out),
+        }
+    }
+
+    fn play(
+        &self,
+        plan: &ExperimentPlan,
+        folder: &ResultsFolder,
+        out: &mut impl Write,
+    ) -> Result<Ending, CommandError> {
+        let interrupt = Interrupt::listen();
+        let mut rows = folder.begin(plan)?;
+        let bar = progress_bar(0, "{bar:40} {pos} of {len} matches, {eta} left");
+        let mut table = folder.table(plan)?;
+        let mut missing = self.missing(plan, &rows)?;
+        while !missing.is_empty() && !interrupt.is_asked() {
+            bar.inc_length(missing.len() as u64);
+            quietly(|| {
+                plan.run(missing.iter().copied(), |row| {
+                    table.add(&row).map_err(CommandError::file(&folder.csv()))?;
+                    rows.push(row);
+                    bar.inc(1);
+                    Ok::<_, CommandError>(!interrupt.is_asked())
+                })
+            })?;
+            missing = self.missing(plan, &rows)?;
+        }
+        bar.finish_and_clear();
+        drop(table);
+        rows.sort_by_key(|row| row.key.row);
+        folder.finish(plan, &rows)?;
+        let summary = ExperimentSummary::of(plan, &rows);
+        if self.json {
+            print_json(&summary, out)?;
+        } else {
+            write!(out, "{summary}")?;
+            writeln!(out, "{} of {} matches in {}", rows.len(), plan.matches(), folder.path().display())?;
+        }
+        Ok(Ending::of_run(interrupt.is_asked()))
+    }
+
+    /// The rows that are wanted and not there.
+    fn missing(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Result<Vec<u64>, DataError> {
+        if self.shard.is_some() && plan.file.until.is_some() {
+            let message = "parts cannot know when enough is known; the design has `until`";
+            return Err(DataError::new("--shard", message));
+        }
+        let known: BTreeSet<u64> = rows.iter().map(|row| row.key.row).collect();
+        let wanted = u64::from(plan.wanted_seeds(rows)) * plan.in_block();
+        let mine = |row: &u64| self.shard.is_none_or(|shard| shard.has(plan, *row)) && !known.contains(row);
+        Ok((0..wanted).filter(mine).collect())
+    }
+}
+
+fn usual_folder(file: &str) -> PathBuf {
+    let stem = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    PathBuf::from(format!("{}.results", stem.unwrap_or_default()))
+}
+
+/// A match that breaks off is a row that says so, and not a report of the program's fault on the way.
+fn quietly<T>(run: impl FnOnce() -> T) -> T {
+    let usual = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| {}));
+    let done = run();
+    std::panic::set_hook(usual);
+    done
+}
+
+fn play_row(
+    plan: &ExperimentPlan,
+    number: u64,
+    folder: &ResultsFolder,
+    out: &mut impl Write,
+) -> Result<Ending, CommandError> {
+    if number >= plan.matches() {
+        let message = format!("there are {} matches, counted from 0", plan.matches());
+        return Err(DataError::new("--row", message).into());
+    }
+    let known = folder.read(plan)?.into_iter().find(|row| row.key.row == number);
+    let row = quietly(|| plan.play(number));
+    print(plan, &row, out)?;
+    let Some(known) = known else { return Ok(Ending::Done) };
+    if known.result == row.result {
+        writeln!(out, "the match is as it is in {}", folder.csv().display())?;
+        return Ok(Ending::Done);
+    }
+    tell(format_args!("{}: row {number} has come out differently", folder.csv().display()));
+    Ok(Ending::Failed)
+}
+
+fn print(plan: &ExperimentPlan, row: &ExperimentRow, out: &mut impl Write) -> std::io::Result<()> {
+    for (factor, level) in plan.file.factors.iter().zip(&row.levels) {
+        writeln!(out, "{:20} {level}", factor.name)?;
+    }
+    writeln!(out, "{:20} {}", "seed", row.key.seed)?;
+    writeln!(out, "{:20} {}", "sides", if row.key.swapped { "swapped" } else { "as named" })?;
+    match &row.result {
+        Err(error) => writeln!(out, "{:20} {error}", "error"),
+        Ok(result) => {
+            writeln!(out, "{:20} {:016x}", "digest", result.digest)?;
+            writeln!(out, "{:20} {:>12} {:>12}", "", row.strategies[0], row.strategies[1])?;
+            let [own, opponents] = &result.values;
+            for ((metric, own), other) in Metric::ALL.iter().zip(own).zip(opponents) {
+                writeln!(out, "{:20} {own:12.4} {other:12.4} {}", metric.column(), metric.unit())?;
+            }
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What is measured of a match: each figure with its name, its unit and one sentence that says what it is.
+
+use serde::{Deserialize, Serialize};
+
+use crate::comms::radio::{LinkCounters, RadioRecord};
+use crate::game::Match;
+use crate::game::record::{AGGLOMERATION, CROWD, Record};
+use crate::ids::Team;
+use crate::world::referee::RemovalReason;
+
+/// What the figures are taken from.
+#[derive(Clone, Copy)]
+pub struct MatchFigures<'a> {
+    record: &'a Record,
+    radio: &'a RadioRecord,
+    /// Home first.
+    score: [u32; 2],
+}
+
+impl<'a> MatchFigures<'a> {
+    /// Those of a match so far.
+    pub fn of(game: &'a Match) -> MatchFigures<'a> {
+        let radio = game.world().resource::<RadioRecord>();
+        MatchFigures { record: game.record(), radio, score: game.state().score }
+    }
+
+    /// A part of the time of play.
+    fn share(&self, seconds: f64) -> f64 {
+        ratio(seconds, self.record.played)
+    }
+
+    fn per_minute(&self, number: impl Into<f64>) -> f64 {
+        60.0 * self.share(number.into())
+    }
+
+    fn sent_by(&self, team: Team) -> LinkCounters {
+        self.radio.sum(|from, _, _| from.team == team)
+    }
+
+    fn goals_ahead(&self, team: Team) -> f64 {
+        f64::from(self.score[team.index()]) - f64::from(self.score[team.opponent().index()])
+    }
+
+    fn removed(&self, team: Team, reason: RemovalReason) -> f64 {
+        self.record.removals.count(reason)[team.index()].into()
+    }
+}
+
+/// Of nothing it is 0.
+fn ratio(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { part / whole } else { 0.0 }
+}
+
+/// As a double, which holds every count of a match.
+fn count(number: u64) -> f64 {
+    number as f64
+}
+
+/// Defines the figures, all in one table.
+macro_rules! metrics {
+    ($($name:ident $column:literal [$unit:literal] $says:literal ($figures:ident, $team:ident) $value:expr;)*) => {
+        /// A figure of one team in one match.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        pub enum Metric {
+            $(#[doc = $says] $name,)*
+        }
+
+        impl Metric {
+            /// All of them, in the order of the columns of a table.
+            pub const ALL: &'static [Metric] = &[$(Metric::$name),*];
+
+            /// The name of its column in tables.
+            pub fn column(self) -> &'static str {
+                match self { $(Metric::$name => $column,)* }
+            }
+
+            /// Its unit; empty for numbers and shares.
+            pub fn unit(self) -> &'static str {
+                match self { $(Metric::$name => $unit,)* }
+            }
+
+            /// What it is, in a sentence.
+            pub fn says(self) -> &'static str {
+                match self { $(Metric::$name => $says,)* }
+            }
+
+            /// Its value for a team.
+            pub fn value(self, figures: MatchFigures, team: Team) -> f64 {
+                match self {
+                    $(Metric::$name => {
+                        let ($figures, $team) = (figures, team);
+                        $value
+                    })*
+                }
+            }
+        }
+    };
+}
+
+metrics! {
+    Goals "goals" [""] "Goals that the team scored." (m, team) m.score[team.index()].into();
+    GoalDifference "goal_difference" [""] "Its goals less those against it." (m, team) m.goals_ahead(team);
+    Points "points" [""] "1 for a match that it won, a half for a draw." (m, team) {
+        (m.goals_ahead(team).clamp(-1.0, 1.0) + 1.0) / 2.0
+    };
+    Possession "possession" [""] "Of the time in which either team had the ball, the share in which it had." (m, team)
+        m.record.possession_shares()[team.index()];
+    Territory "territory" ["m"] "Where the ball was in the mean, towards the goal that the team attacks." (m, team) {
+        m.share(m.record.places.territory(team))
+    };
+    Crowding "crowding" [""] "Share of play with two or more of its robots within a metre of the ball." (m, team)
+        m.share(m.record.crowding.seconds(CROWD)[team.index()]);
+    Agglomeration "agglomeration" [""] "Share of play with two or more of its robots within half a metre of the ball." (m, team)
+        m.share(m.record.crowding.seconds(AGGLOMERATION)[team.index()]);
+    MateDistance "mate_distance" ["m"] "How far its robots were from their nearest team mate in the mean." (m, team)
+        m.record.places.mate_distance(team);
+    MateContacts "mate_contacts" ["1/min"] "How often two of its robots touched, for a minute of play." (m, team)
+        m.per_minute(m.record.contacts.of_mates(team).number);
+    MateContactTime "mate_contact_time" ["s/min"] "How long pairs of its robots touched, for a minute of play." (m, team)
+        m.per_minute(m.record.contacts.of_mates(team).seconds);
+    OpponentContacts "opponent_contacts" ["1/min"] "How often robots of both teams touched, for a minute of play." (m, _team)
+        m.per_minute(m.record.contacts.of_opponents().number);
+    NobodyDrives "nobody_drives" [""] "Share of play in which none of its robots drove at the ball." (m, team)
+        m.share(m.record.pursuit[team.index()].nobody.total);
+    SeveralDrive "several_drive" [""] "Share of play in which two or more of its robots drove at the ball." (m, team)
+        m.share(m.record.pursuit[team.index()].several.total);
+    FartherDrives "farther_drives" [""] "Share of play in which one robot drove at the ball while a mate was nearer." (m, team)
+        m.share(m.record.pursuit[team.index()].farther.total);
+    Takeovers "takeovers" ["1/min"] "How often another robot became the one that drives at the ball, for a minute." (m, team)
+        m.per_minute(count(m.record.pursuit[team.index()].takeovers));
+    Alternations "alternations" ["1/min"] "Takeovers back to the robot before within 3 s, for a minute of play." (m, team)
+        m.per_minute(count(m.record.pursuit[team.index()].alternations));
+    BelievedNobody "believed_nobody" [""] "Share of play in which a robot of a booking team knew the ball and none believed to go." (m, team)
+        m.share(m.record.bookings[team.index()].nobody_goes.total);
+    BelievedSeveral "believed_several" [""] "Share of play in which several robots of a booking team believed to go." (m, team)
+        m.share(m.record.bookings[team.index()].several_go.total);
+    LooseBallsWon "loose_balls_won" ["1/min"] "Balls that nobody had touched for a second and that it got, for a minute." (m, team)
+        m.per_minute(m.record.loose_balls.won[team.index()]);
+    KicksTried "kicks_tried" ["1/min"] "Kicks that it began, for a minute of play." (m, team)
+        m.per_minute(m.record.kicks[team.index()].tried);
+    KicksStruck "kicks_struck" ["1/min"] "Kicks that met the ball, for a minute of play." (m, team)
+        m.per_minute(m.record.kicks[team.index()].struck);
+    KicksMissed "kicks_missed" ["1/min"] "Kicks that met nothing, for a minute of play." (m, team)
+        m.per_minute(m.record.kicks[team.index()].missed);
+    BallsCaught "balls_caught" ["1/min"] "Balls that its chins got hold of, for a minute of play." (m, team)
+        m.per_minute(m.record.grips[team.index()].caught);
+    BallsSlipped "balls_slipped" ["1/min"] "Balls that its chins lost to others, for a minute of play." (m, team)
+        m.per_minute(m.record.grips[team.index()].slipped);
+    Falls "falls" [""] "How often its robots fell." (m, team) m.record.falls[team.index()].into();
+    RoleChanges "role_changes" ["1/min"] "How often its robots changed their role, for a minute of play." (m, team)
+        m.per_minute(count(m.record.roles[team.index()].changes));
+    RoleHold "role_hold" ["s"] "How long its robots kept a role in the mean." (m, team) m.record.roles[team.index()].mean;
+    RoleOscillations "role_oscillations" ["1/min"] "Role changes that went back within 3 s, for a minute of play." (m, team)
+        m.per_minute(count(m.record.roles[team.index()].oscillations));
+    StateChanges "state_changes" ["1/min"] "How often its robots changed the state of their machine, for a minute." (m, team)
+        m.per_minute(count(m.record.states[team.index()].changes));
+    StateOscillations "state_oscillations" ["1/min"] "State changes that went back within 3 s, for a minute of play." (m, team)
+        m.per_minute(count(m.record.states[team.index()].oscillations));
+    Driven "driven" ["m/min"] "Metres that its robots drove together, for a minute of play." (m, team)
+        m.per_minute(m.record.driven_by(team));
+    PacketsSent "packets_sent" ["1/s"] "Packets that its robots sent, one for each receiver, for a second of play." (m, team)
+        m.share(count(m.sent_by(team).sent));
+    PacketsDelivered "packets_delivered" [""] "Share of its packets that arrived." (m, team)
+        ratio(count(m.sent_by(team).delivered), count(m.sent_by(team).sent));
+    PacketsLost "packets_lost" [""] "Share of its packets that were lost." (m, team)
+        ratio(count(m.sent_by(team).lost_in_all()), count(m.sent_by(team).sent));
+    PacketsLate "packets_late" [""] "Share of its packets that took longer than the radio's ordinary delay." (m, team)
+        ratio(count(m.sent_by(team).late), count(m.sent_by(team).sent));
+    BytesSent "bytes_sent" ["B/s"] "Bytes of the packets that it sent, for a second of play." (m, team)
+        m.share(count(m.sent_by(team).bytes));
+    SecondDefenders "second_defenders" [""] "Robots taken off for staying in their own area beside a mate." (m, team)
+        m.removed(team, RemovalReason::SecondDefender);
+    IllegalDefenders "illegal_defenders" [""] "Robots taken off for being in their own area." (m, team)
+        m.removed(team, RemovalReason::IllegalDefender);
+    BallHoldings "ball_holdings" [""] "Robots taken off for holding or carrying the ball." (m, team)
+        m.removed(team, RemovalReason::BallHolding);
+    Pushings "pushings" [""] "Robots taken off for pushing." (m, team) m.removed(team, RemovalReason::Pushing);
+    GoaliePushings "goalie_pushings" [""] "Robots taken off for pushing a goalkeeper." (m, team)
+        m.removed(team, RemovalReason::GoaliePushing);
+    Chargings "chargings" [""] "Robots taken off for driving against an opponent." (m, team)
+        m.removed(team, RemovalReason::Charging);
+    Leavings "leavings" [""] "Robots taken off for leaving the field." (m, team)
+        m.removed(team, RemovalReason::LeftTheField);
+    Stuck "stuck" [""] "Robots taken off beside a ball that was stuck." (m, team)
+        m.removed(team, RemovalReason::LocalStuck);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_unlike_and_named_as_their_metrics() {
+        let columns: std::collections::BTreeSet<_> =
+            Metric::ALL.iter().map(|metric| metric.column()).collect();
+        assert_eq!(columns.len(), Metric::ALL.len());
+        for metric in Metric::ALL {
+            let words = metric.column().replace('_', "");
+            assert_eq!(format!("{metric:?}").to_lowercase(), words);
+            assert!(metric.says().ends_with('.'), "{metric:?}");
+        }
+    }
+}

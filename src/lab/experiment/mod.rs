@@ -1,0 +1,29 @@
+//! Experiments: a design with factors, every match of it as a row of figures, on all cores.
+//!
+//! An [`ExperimentFile`] is what is written in `assets/experiments`; an [`ExperimentPlan`] plays it, and each match becomes an
+//! [`ExperimentRow`] with the value of every [`Metric`].
+
+mod claim;
+mod file;
+mod metric;
+mod pairing;
+mod parquet;
+mod plan;
+mod row;
+mod run;
+mod summary;
+mod table;
+mod treatment;
+mod until;
+
+pub use claim::{ClaimVerdict, JudgedClaim};
+pub use file::{
+    ClaimedDifference, DesignChange, ExperimentFile, Factor, FactorLevels, NamedLevel, SeedBlocks,
+    StatedClaim, UntilRule,
+};
+pub use metric::{MatchFigures, Metric};
+pub use parquet::write_parquet;
+pub use plan::ExperimentPlan;
+pub use row::{ExperimentRow, MatchResult, RowKey};
+pub use summary::{ExperimentSummary, FigureSummary, TreatmentSummary};
+pub use table::{TableWriter, read_csv, write_csv};

@@ -1,0 +1,179 @@
+//! From a treatment, a list of changes, to the match that is played.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use xxhash_rust::xxh3::Xxh3;
+
+use super::file::DesignChange;
+use crate::data::{
+    AssetFolder, AssetKind, AssetTexts, DataError, Field, Segment, Source, no_such, numbers, with_number,
+};
+use crate::game::requests::Request;
+use crate::game::{Choice, MatchPlan, file_named};
+use crate::ids::Team;
+use crate::lab::scenario::{Dependency, TimedEvent, check_event_of_match, has, requests, switch_off};
+
+/// What is changed of a match, and where the design says so.
+pub(super) type PlacedChange = (Field, DesignChange);
+
+/// A treatment that can be played.
+#[derive(Clone, Debug)]
+pub(super) struct TreatmentPlan {
+    /// With the teams on their own sides, and on each other's.
+    plans: [MatchPlan; 2],
+    /// The files of the strategies, as they are named.
+    pub strategies: [String; 2],
+    /// Of the texts of all files that the match was read from with their places in the asset folder, and of what is changed.
+    pub assets: u64,
+}
+
+impl TreatmentPlan {
+    /// Reads everything that its matches need.
+    ///
+    /// # Errors
+    /// The first fault of a file, or the first change that changes nothing.
+    pub fn read(
+        assets: &AssetFolder,
+        design: &Source,
+        changes: &[PlacedChange],
+    ) -> Result<TreatmentPlan, DataError> {
+        let (assets, notes) = assets.with_texts(changed_texts(assets, design, changes)?).noting();
+        let mut plan = MatchPlan::read(&assets, &choice(&assets, design, changes)?)?;
+        let mut script = Vec::new();
+        for (at, change) in changes {
+            match change {
+                DesignChange::Without(team, what) => {
+                    take_out(&mut plan, *team, *what).map_err(|message| design.error_at(at, message))?;
+                }
+                DesignChange::Event(event) => {
+                    check_event_of_match(&assets, (design, &at.key("Event")), event, &plan)?;
+                    script.push(event.clone());
+                }
+                _ => {}
+            }
+        }
+        let mut swapped = plan.clone();
+        swapped.teams.swap(0, 1);
+        plan.script = in_order(requests(&assets, &script, &plan)?);
+        swapped.script = in_order(requests(&assets, &with_sides_swapped(&script), &swapped)?);
+        let strategies = plan.teams.each_ref().map(|team| team.names.strategy.clone());
+        let assets = hash(assets.root(), &notes.texts(), changes);
+        Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets })
+    }
+
+    /// The match with a seed.
+    pub fn plan(&self, seed: u64, swapped: bool) -> MatchPlan {
+        MatchPlan { seed, ..self.plans[usize::from(swapped)].clone() }
+    }
+}
+
+/// The files that are other than in the asset folder.
+fn changed_texts(
+    assets: &AssetFolder,
+    design: &Source,
+    changes: &[PlacedChange],
+) -> Result<AssetTexts, DataError> {
+    let mut texts = AssetTexts::new();
+    for (at, change) in changes {
+        // Where a number or a file is named: in the change itself, but for the values of a factor.
+        let at = match change {
+            DesignChange::Number { .. } if !is_values(at) => &at.key("Number"),
+            DesignChange::Instead { .. } => &at.key("Instead"),
+            _ => at,
+        };
+        let text_of = |texts: &AssetTexts, field: &str, name: &str| {
+            let path = assets.root().join(name);
+            let text = match texts.get(&path) {
+                Some(text) => text.clone(),
+                None if !assets.has_file(&path) => {
+                    let message = format!("{}: no such file", path.display());
+                    return Err(design.error_at(&at.key(field), message));
+                }
+                None => assets.read(&path)?.text.to_string(),
+            };
+            Ok((path, text))
+        };
+        match change {
+            DesignChange::Number { file, path, to } => {
+                let (place, text) = text_of(&texts, "file", file)?;
+                let known = numbers(&text);
+                let number = known.iter().find(|number| number.field.to_string() == *path);
+                let number = number.ok_or_else(|| {
+                    let paths = known.iter().map(|number| number.field.to_string());
+                    design.error_at(&at.key("path"), no_such("number", path, paths))
+                })?;
+                texts.insert(place, with_number(&text, number, *to));
+            }
+            DesignChange::Instead { of, read } => {
+                let (_, text) = text_of(&texts, "read", read)?;
+                let (place, _) = text_of(&texts, "of", of)?;
+                texts.insert(place, text);
+            }
+            _ => {}
+        }
+    }
+    Ok(texts)
+}
+
+/// Whether a change is one of the values of a factor.
+fn is_values(at: &Field) -> bool {
+    matches!(at.segments().last(), Some(Segment::Key(key)) if key == "Values")
+}
+
+/// What is chosen of the match; a later change has its way.
+fn choice(assets: &AssetFolder, design: &Source, changes: &[PlacedChange]) -> Result<Choice, DataError> {
+    let mut choice = Choice::default();
+    for (at, change) in changes {
+        let (kind, field, name, chosen) = match change {
+            DesignChange::Match(name) => (AssetKind::Match, "Match", name, &mut choice.file),
+            DesignChange::Home(name) => (AssetKind::Strategy, "Home", name, &mut choice.home),
+            DesignChange::Away(name) => (AssetKind::Strategy, "Away", name, &mut choice.away),
+            DesignChange::Radio(name) => (AssetKind::Radio, "Radio", name, &mut choice.radio),
+            DesignChange::HalfMinutes(minutes) => {
+                choice.half_minutes = Some(*minutes);
+                continue;
+            }
+            _ => continue,
+        };
+        file_named(assets, design, kind, (&at.key(field), name))?;
+        *chosen = Some(name.clone());
+    }
+    Ok(choice)
+}
+
+fn take_out(plan: &mut MatchPlan, team: Team, what: Dependency) -> Result<(), String> {
+    let strategy = &mut plan.teams[team.index()].strategy;
+    if !has(strategy, what) {
+        return Err(format!("{what} is not on in {}", strategy.name));
+    }
+    switch_off(Arc::make_mut(strategy), what);
+    Ok(())
+}
+
+fn with_sides_swapped(script: &[TimedEvent]) -> Vec<TimedEvent> {
+    let swapped = |event: &TimedEvent| TimedEvent { at: event.at, what: event.what.with_sides_swapped() };
+    script.iter().map(swapped).collect()
+}
+
+fn in_order(mut script: Vec<(u64, Request)>) -> Vec<(u64, Request)> {
+    script.sort_by_key(|(tick, _)| *tick);
+    script
+}
+
+fn hash(root: &Path, texts: &AssetTexts, changes: &[PlacedChange]) -> u64 {
+    let mut hash = Xxh3::new();
+    let mut add = |part: &str| {
+        // Its length keeps it from what comes next.
+        hash.update(&(part.len() as u64).to_le_bytes());
+        hash.update(part.as_bytes());
+    };
+    for (path, text) in texts {
+        add(&path.strip_prefix(root).unwrap_or(path).to_string_lossy());
+        add(text);
+    }
+    for (_, change) in changes {
+        add(&format!("{change:?}"));
+    }
+    hash.digest()
+}
