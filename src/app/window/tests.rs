@@ -3,6 +3,7 @@
 mod breakpoints;
 mod camera;
 mod laid_out;
+mod marks;
 mod rewind;
 mod silent_robots;
 mod states;
