@@ -86,8 +86,8 @@ knobs! {
         "phantoms"      0.0..0.05  4 ""     false_positive, "Chance that a frame takes something else for the ball";
         "wrong team"    0.0..1.0   3 ""     wrong_team,     "Chance to take a robot for one of the other team";
         "latency"       0.0..0.5   2 "s"    latency,        "From the shutter to the percept";
-        "ball range"    0.5..8.0   1 "m"    ball_range,     "Farthest ball that is seen";
-        "robot range"   0.5..8.0   1 "m"    robot_range,    "Farthest marker that is seen";
+        "ball range"    0.5..12.0  1 "m"    ball_range,     "Farthest ball that is seen";
+        "robot range"   0.5..12.0  1 "m"    robot_range,    "Farthest marker that is seen";
     }
     "Localisation" localisation {
         "place error"   0.0..1.0   2 "m"    position,       "Error of each coordinate of its own place";

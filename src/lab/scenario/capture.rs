@@ -309,15 +309,16 @@ mod tests {
             let player =
                 read.scenario.players().find(|player| player.id == *id).expect("all are on the pitch");
             let believed = game.state().attacking(id.team).turn_pose(model.pose);
-            assert!(
-                player.pose.position.distance(believed.position) < APART + 0.01,
-                "{id}: {:?}",
-                player.pose
-            );
             let carried = script.iter().find_map(|event| match event {
                 Event::Kidnap { robot, to, .. } if robot == id => Some(*to),
                 _ => None,
             });
+            // One that errs where there is no room begins where it is.
+            assert!(
+                carried.is_none() || player.pose.position.distance(believed.position) < APART + 0.01,
+                "{id}: {:?}",
+                player.pose
+            );
             let truth = carried.unwrap_or(player.pose.position);
             let most = if carried.is_some() { 0.01 } else { APART };
             assert!(truth.distance(pose.position) < most, "{id} is at {truth}");

@@ -291,7 +291,9 @@ fn decisions_without_a_new_frame_are_no_missed_frames() {
 
 #[test]
 fn a_ball_at_the_edge_of_view_or_range_may_be_missed_for_the_memorys_span() {
-    for place in [2.0 * unit(0.65), v(2.4, 0.0)] {
+    let sensing = real();
+    let range = sensing.eyes.camera().map_or(0.0, |camera| camera.ball_range);
+    for place in [2.0 * unit(0.65), v(0.75 * range, 0.0)] {
         let mut bench = Bench::still();
         bench.sees(6, Some(place), &[]);
         let kept = (2..=20).all(|frame| bench.sees(6 * frame, None, &[]).ball.is_some());

@@ -25,7 +25,7 @@ impl FromStr for Shard {
     fn from_str(text: &str) -> Result<Shard, String> {
         let numbers = text.split_once('/').and_then(|(number, of)| {
             let (number, of): (u64, u64) = (number.parse().ok()?, of.parse().ok()?);
-            (1..=of).contains(&number).then_some(Shard { number: number - 1, of })
+            (1..=of).contains(&number).then(|| Shard { number: number - 1, of })
         });
         numbers.ok_or_else(|| "must be a part and the number of parts, such as 2/8".into())
     }
