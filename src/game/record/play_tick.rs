@@ -27,7 +27,7 @@ pub(super) struct PlayTick {
     pub ball_velocity: Vec2,
     /// Whether the referee has put the ball somewhere.
     pub ball_is_put: bool,
-    /// Those on the pitch, in no particular order.
+    /// Those on the pitch, in order.
     pub players: SmallVec<[PlayerTick; 8]>,
     /// The pairs of robots that press each other with any of their bodies, in order, each pair in order and once.
     pub touching: SmallVec<[[RobotId; 2]; 8]>,
@@ -120,6 +120,8 @@ impl PlayView<'_, '_> {
         for player in &self.players {
             tick.players.push(player.tick(ball.position));
         }
+        // Sums of numbers depend on their order, and that of a query is another in a match that was put back.
+        tick.players.sort_unstable_by_key(|player| player.id);
         let plays = |robot: RobotId| tick.players.iter().any(|player| player.id == robot);
         for (a, b, _) in &self.contacts.robots {
             if plays(*a) && plays(*b) {
