@@ -144,17 +144,20 @@ fn comma_and_full_stop_go_one_tick_back_and_one_ahead() {
 #[test]
 fn a_drag_on_the_line_scrubs_and_a_click_on_an_event_goes_to_it() {
     let mut window = LaidOutWindow::scenario("swap_figure_8");
-    window.play_to(400);
-    let events: Vec<(u64, MatchEventKind)> = {
-        let events = window.rewind().events(BranchId(0));
-        events.map(|event| (event.tick, event.what.clone())).collect()
+    let swap_in = |window: &LaidOutWindow| {
+        let mut events = window.rewind().events(BranchId(0));
+        events.find(|event| matches!(event.what, MatchEventKind::RoleTaken { .. })).map(|event| event.tick)
     };
-    let swap = events.iter().find(|(_, what)| matches!(what, MatchEventKind::RoleTaken { .. }));
-    let (swap, _) = swap.expect("the scenario is about a swap").clone();
+    let swap = (400..1200).step_by(100).find_map(|tick| {
+        window.play_to(tick);
+        swap_in(&window)
+    });
+    let swap = swap.expect("the scenario is about a swap");
+    let now = window.clock();
     let frame = window.frame(SIZE, 1.0);
     let last = window.app.world().resource::<crate::app::view::time::expectations::Expectations>().end();
-    let last = last.expect("it is a scenario").max(400);
-    window.drag(frame.place_of(395, last), frame.place_of(100, last));
+    let last = last.expect("it is a scenario").max(now);
+    window.drag(frame.place_of(now - 5, last), frame.place_of(100, last));
     assert!(window.clock().abs_diff(100) <= 1, "{} on {}", window.clock(), frame.time_line());
     window.drag(frame.place_of(swap, last), frame.place_of(swap, last));
     assert_eq!(window.clock(), swap);
