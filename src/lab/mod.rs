@@ -2,6 +2,7 @@
 //! cameras by whose pictures the fast model of eyes is fitted; matches that are kept and played again, or go back and on another
 //! way, or are written as pages, logs and pictures for others; counts of what strategies were seen to do; statistics by which it is judged.
 
+mod all_cores;
 pub mod coverage;
 pub mod duel;
 pub mod experiment;

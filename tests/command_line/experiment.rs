@@ -123,9 +123,22 @@ fn parts_that_were_played_elsewhere_merge_to_the_whole() {
     let merged = stage.call("merge", "merged", &[&parts[0], &parts[1]]);
     assert_eq!(merged.status.code(), Some(0), "{}", text(&merged.stderr));
     assert_eq!(stage.table("merged"), stage.table("whole"));
+    // One part after the other comes to the same.
     let missing = stage.call("merge", "half", &[&parts[0]]);
     assert_eq!(missing.status.code(), Some(0));
     assert!(text(&missing.stdout).contains("4 of 8 matches"), "{}", text(&missing.stdout));
+    stage.call("merge", "half", &[&parts[1]]);
+    assert_eq!(stage.table("half"), stage.table("whole"));
+}
+
+#[test]
+fn parts_of_a_design_that_stops_by_itself_are_refused_before_anything_is_written() {
+    let until = "until: Some(Width(metric: Goals, confidence: 0.9, width: 1)), metrics:";
+    let stage = Stage::new(&DESIGN.replace("metrics:", until));
+    let output = stage.call("experiment", "out", &["--shard", "1/2"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).starts_with("--shard: "), "{}", text(&output.stderr));
+    assert!(!stage.path("out").exists());
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub(super) struct MergeCommand {
     /// The folders with the parts.
     #[arg(required = true)]
     parts: Vec<PathBuf>,
-    /// The folder of the whole.
+    /// The folder of the whole; rows that are there already stay.
     #[arg(long, value_name = "FOLDER")]
     out: PathBuf,
 }
@@ -25,7 +25,8 @@ pub(super) struct MergeCommand {
 impl MergeCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let plan = ExperimentPlan::read(assets, &self.file)?;
-        let mut rows = Vec::new();
+        let whole = ResultsFolder::new(self.out.clone());
+        let mut rows = whole.read(&plan)?;
         for part in &self.parts {
             let folder = ResultsFolder::new(part.clone());
             if !folder.csv().is_file() {
@@ -36,9 +37,8 @@ impl MergeCommand {
         rows.sort_by_key(|row| row.key.row);
         no_contradiction(&rows).map_err(|message| DataError::new(&self.out, message))?;
         rows.dedup_by_key(|row| row.key.row);
-        let folder = ResultsFolder::new(self.out.clone());
-        folder.begin(&plan)?;
-        folder.finish(&plan, &rows)?;
+        whole.begin(&plan)?;
+        whole.finish(&plan, &rows)?;
         writeln!(out, "{} of {} matches in {}", rows.len(), plan.matches(), self.out.display())?;
         Ok(Ending::Done)
     }
@@ -48,6 +48,6 @@ impl MergeCommand {
 fn no_contradiction(rows: &[ExperimentRow]) -> Result<(), String> {
     let same = |pair: &[ExperimentRow]| pair[0].key.row != pair[1].key.row || pair[0] == pair[1];
     rows.windows(2).find(|pair| !same(pair)).map_or(Ok(()), |pair| {
-        Err(format!("row {} has come out differently in two of the parts", pair[0].key.row))
+        Err(format!("row {} has come out differently in two of the folders", pair[0].key.row))
     })
 }

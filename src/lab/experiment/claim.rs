@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use super::file::{ClaimedDifference, StatedClaim};
-use super::pairing::differences;
+use super::pairing::PairedRows;
 use super::plan::ExperimentPlan;
-use super::row::ExperimentRow;
 use crate::lab::statistics::{PairedDifference, compare_pairs};
 use crate::rng::{DEFAULT_SEED, Seed};
 
@@ -44,16 +43,12 @@ pub struct JudgedClaim {
 
 /// Judges all claims of a design at a confidence. Each is judged by itself: of twenty claims that are all wrong, one may seem to hold
 /// at 95 %.
-pub(super) fn judge_claims(
-    plan: &ExperimentPlan,
-    rows: &[ExperimentRow],
-    confidence: f64,
-) -> Vec<JudgedClaim> {
+pub(super) fn judge_claims(plan: &ExperimentPlan, rows: &PairedRows, confidence: f64) -> Vec<JudgedClaim> {
     let judge = |claim: &StatedClaim| {
         let treatments = [&claim.of, &claim.than].map(|levels| plan.file.treatment(levels));
         let difference = match treatments {
             [Some(of), Some(than)] => {
-                let pairs = differences(plan, rows, [of, than], claim.metric);
+                let pairs = rows.differences([of, than], claim.metric);
                 compare_pairs(&pairs, confidence, Seed(DEFAULT_SEED))
             }
             _ => None,

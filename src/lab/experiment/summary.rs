@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::claim::{JudgedClaim, judge_claims};
 use super::metric::Metric;
-use super::pairing::{differences, values_by_seed};
+use super::pairing::PairedRows;
 use super::plan::ExperimentPlan;
 use super::row::ExperimentRow;
 use crate::lab::statistics::{Interval, PairedDifference, compare_pairs, mean, mean_interval};
@@ -56,30 +56,30 @@ const CONFIDENCE: f64 = 0.95;
 impl ExperimentSummary {
     /// Sums rows up; those of seeds that were not played on both sides do not count.
     pub fn of(plan: &ExperimentPlan, rows: &[ExperimentRow]) -> ExperimentSummary {
-        let treatments = (0..plan.treatments()).map(|treatment| treatment_summary(plan, rows, treatment));
+        let rows = PairedRows::of(plan, rows);
+        let treatments = (0..plan.treatments()).map(|treatment| treatment_summary(plan, &rows, treatment));
         ExperimentSummary {
             name: plan.file.name.clone(),
             confidence: CONFIDENCE,
             treatments: treatments.collect(),
-            claims: judge_claims(plan, rows, CONFIDENCE),
-            broken: rows.iter().filter(|row| row.result.is_err()).count(),
+            claims: judge_claims(plan, &rows, CONFIDENCE),
+            broken: (0..plan.treatments()).map(|treatment| rows.broken(treatment)).sum(),
         }
     }
 }
 
-fn treatment_summary(plan: &ExperimentPlan, rows: &[ExperimentRow], treatment: usize) -> TreatmentSummary {
+fn treatment_summary(plan: &ExperimentPlan, rows: &PairedRows, treatment: usize) -> TreatmentSummary {
     let names = plan.file.factors.iter().map(|factor| factor.name.clone());
     let figure = |metric: &Metric| {
-        let own = values_by_seed(plan, rows, treatment, *metric);
-        let values: Vec<f64> = own.values().copied().collect();
+        let values: Vec<f64> = rows.values(treatment, *metric).into_values().collect();
         let against_first = (treatment > 0).then(|| {
-            let pairs = differences(plan, rows, [treatment, 0], *metric);
+            let pairs = rows.differences([treatment, 0], *metric);
             compare_pairs(&pairs, CONFIDENCE, Seed(DEFAULT_SEED))
         });
         let interval = mean_interval(&values, CONFIDENCE);
         (*metric, FigureSummary { mean: mean(&values), interval, against_first: against_first.flatten() })
     };
-    let seeds = plan.file.metrics.first().map(|metric| values_by_seed(plan, rows, treatment, *metric).len());
+    let seeds = plan.file.metrics.first().map(|metric| rows.values(treatment, *metric).len());
     TreatmentSummary {
         levels: names.zip(plan.level_names(treatment)).collect(),
         seeds: seeds.unwrap_or_default(),

@@ -1,7 +1,7 @@
 //! How many seeds an experiment plays that stops when enough is known.
 
 use super::file::UntilRule;
-use super::pairing::values_by_seed;
+use super::pairing::PairedRows;
 use super::plan::ExperimentPlan;
 use super::row::ExperimentRow;
 use crate::lab::statistics::{UntilWidth, WidthVerdict};
@@ -13,17 +13,16 @@ impl ExperimentPlan {
         let budget = self.file.blocks.number;
         let Some(UntilRule::Width { metric, confidence, width }) = self.file.until else { return budget };
         let rule = UntilWidth { confidence, width, budget: budget as usize };
+        let rows = PairedRows::of(self, rows);
         let of_treatment = |treatment: usize| {
-            let values: Vec<f64> = values_by_seed(self, rows, treatment, metric).into_values().collect();
-            let broken =
-                rows.iter().filter(|row| row.key.treatment == treatment && row.result.is_err()).count();
+            let values: Vec<f64> = rows.values(treatment, metric).into_values().collect();
             let wanted = match rule.look(&values) {
                 WidthVerdict::Reached { matches, .. } => matches,
                 WidthVerdict::More { next_look, .. } => next_look,
                 WidthVerdict::BudgetSpent { .. } => budget as usize,
             };
             // A seed whose match broke off is made up for by another.
-            u32::try_from(wanted + broken).unwrap_or(budget)
+            u32::try_from(wanted + rows.broken(treatment)).unwrap_or(budget)
         };
         (0..self.treatments()).map(of_treatment).max().map_or(budget, |wanted| wanted.min(budget))
     }

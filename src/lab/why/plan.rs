@@ -1,11 +1,8 @@
 //! Asking why.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
-
-use rayon::prelude::*;
 
 use super::candidates::{Candidate, of_crashes, of_packets};
 use super::finding::{WhyFinding, WhyReport};
@@ -16,6 +13,7 @@ use crate::comms::radio::RadioRecord;
 use crate::data::DataError;
 use crate::game::requests::Request;
 use crate::game::{Match, MatchPlan};
+use crate::lab::all_cores::on_all_cores;
 use crate::lab::replay::{Recorder, Replay, ReplayHeader};
 use crate::state::Snapshot;
 
@@ -83,31 +81,17 @@ impl WhyPlan {
         candidates.truncate(self.choice.most);
         begins(candidates.len());
         let stretch = ReplayedStretch { plan: &self.plan, at: self.at, snapshots };
-        let (sender, receiver) = mpsc::channel();
-        let stop = AtomicBool::new(false);
         let (mut findings, mut tried) = (Vec::new(), 0);
-        std::thread::scope(|scope| {
-            let (stretch, outcome, stop) = (&stretch, &outcome, &stop);
-            let candidates = &candidates;
-            scope.spawn(move || {
-                let try_one = |game: &mut Match, candidate: &Candidate| {
-                    let is_tried = !stop.load(Ordering::Relaxed);
-                    is_tried.then(|| self.finding(stretch, game, outcome, candidate))
-                };
-                candidates
-                    .par_iter()
-                    .map_init(|| Match::new(&self.plan), try_one)
-                    .filter_map(|found| found)
-                    .for_each_with(sender, |sender, found| drop(sender.send(found)));
-            });
-            for found in receiver {
+        let Ok(()) = on_all_cores(
+            candidates.iter(),
+            || Match::new(&self.plan),
+            |game, candidate| self.finding(&stretch, game, &outcome, candidate),
+            |found| {
                 tried += 1;
                 findings.extend(found);
-                if !goes_on(tried) {
-                    stop.store(true, Ordering::Relaxed);
-                }
-            }
-        });
+                Ok::<_, Infallible>(goes_on(tried))
+            },
+        );
         let (tried, seeds) = (tried as usize, self.choice.seeds);
         let interrupted = tried < candidates.len();
         let mut report = WhyReport { outcome, dt, tried, left_out, seeds, interrupted, findings };

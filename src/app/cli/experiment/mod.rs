@@ -39,6 +39,10 @@ pub(super) struct ExperimentCommand {
 impl ExperimentCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
         let plan = ExperimentPlan::read(assets, &self.file)?;
+        if self.shard.is_some() && plan.file.until.is_some() {
+            let message = "parts cannot know when enough is known; the design has `until`";
+            return Err(DataError::new("--shard", message).into());
+        }
         let folder = ResultsFolder::new(self.out.clone().unwrap_or_else(|| usual_folder(&self.file)));
         match self.row {
             Some(row) => play_row(&plan, row, &folder, out),
@@ -56,7 +60,7 @@ impl ExperimentCommand {
         let mut rows = folder.begin(plan)?;
         let bar = progress_bar(0, "{bar:40} {pos} of {len} matches, {eta} left");
         let mut table = folder.table(plan)?;
-        let mut missing = self.missing(plan, &rows)?;
+        let mut missing = self.missing(plan, &rows);
         while !missing.is_empty() && !interrupt.is_asked() {
             bar.inc_length(missing.len() as u64);
             quietly(|| {
@@ -67,7 +71,7 @@ impl ExperimentCommand {
                     Ok::<_, CommandError>(!interrupt.is_asked())
                 })
             })?;
-            missing = self.missing(plan, &rows)?;
+            missing = self.missing(plan, &rows);
         }
         bar.finish_and_clear();
         drop(table);
@@ -84,15 +88,11 @@ impl ExperimentCommand {
     }
 
     /// The rows that are wanted and not there.
-    fn missing(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Result<Vec<u64>, DataError> {
-        if self.shard.is_some() && plan.file.until.is_some() {
-            let message = "parts cannot know when enough is known; the design has `until`";
-            return Err(DataError::new("--shard", message));
-        }
+    fn missing(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Vec<u64> {
         let known: BTreeSet<u64> = rows.iter().map(|row| row.key.row).collect();
         let wanted = u64::from(plan.wanted_seeds(rows)) * plan.in_block();
         let mine = |row: &u64| self.shard.is_none_or(|shard| shard.has(plan, *row)) && !known.contains(row);
-        Ok((0..wanted).filter(mine).collect())
+        (0..wanted).filter(mine).collect()
     }
 }
 
