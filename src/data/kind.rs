@@ -23,13 +23,15 @@ pub enum AssetKind {
     Radio,
     /// Matches that are to be compared.
     Experiment,
+    /// A search for the best numbers of a strategy.
+    Tuning,
     /// Where robots and computers are.
     Addresses,
 }
 
 impl AssetKind {
     /// Every kind.
-    pub const ALL: [AssetKind; 10] = [
+    pub const ALL: [AssetKind; 11] = [
         AssetKind::Strategy,
         AssetKind::Scenario,
         AssetKind::Match,
@@ -39,6 +41,7 @@ impl AssetKind {
         AssetKind::Camera,
         AssetKind::Radio,
         AssetKind::Experiment,
+        AssetKind::Tuning,
         AssetKind::Addresses,
     ];
 
@@ -54,6 +57,7 @@ impl AssetKind {
             AssetKind::Camera => "cameras",
             AssetKind::Radio => "radios",
             AssetKind::Experiment => "experiments",
+            AssetKind::Tuning => "tunings",
             AssetKind::Addresses => "addresses",
         }
     }
@@ -81,6 +85,7 @@ impl fmt::Display for AssetKind {
             AssetKind::Camera => "camera",
             AssetKind::Radio => "radio",
             AssetKind::Experiment => "experiment",
+            AssetKind::Tuning => "tuning",
             AssetKind::Addresses => "table of addresses",
         })
     }

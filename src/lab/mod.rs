@@ -12,4 +12,5 @@ pub mod replay;
 pub mod rewind;
 pub mod scenario;
 pub mod statistics;
+pub mod tune;
 pub mod why;

@@ -10,6 +10,7 @@ mod interrupt;
 mod options;
 mod output;
 mod replays;
+mod tune;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

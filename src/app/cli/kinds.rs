@@ -7,6 +7,7 @@ use crate::data::{AssetFolder, AssetKind, DataError, Source, TopLevel, field_nam
 use crate::game::{Choice, MatchFile, MatchPlan, checked, read_addresses, read_strategy_alone};
 use crate::lab::experiment::{ExperimentFile, ExperimentPlan};
 use crate::lab::scenario::{ScenarioFile, ScenarioPlan, ScenarioRef};
+use crate::lab::tune::{TuningFile, TuningPlan};
 use crate::pitch::Pitch;
 use crate::robot::{RobotKind, Sensing};
 use crate::strategy::StrategyFile;
@@ -50,6 +51,7 @@ fn fields_of(kind: AssetKind) -> &'static [&'static str] {
         AssetKind::Camera => field_names::<CameraCalibration>(),
         AssetKind::Radio => field_names::<Radio>(),
         AssetKind::Experiment => field_names::<ExperimentFile>(),
+        AssetKind::Tuning => field_names::<TuningFile>(),
         AssetKind::Addresses => &[],
     }
 }
@@ -76,6 +78,7 @@ pub(super) fn read(
         AssetKind::Camera => drop(checked::<CameraCalibration>(assets, path)?),
         AssetKind::Radio => drop(checked::<Radio>(assets, path)?),
         AssetKind::Experiment => drop(ExperimentPlan::read_file(assets, path)?),
+        AssetKind::Tuning => drop(TuningPlan::read_file(assets, path)?),
         AssetKind::Addresses => drop(read_addresses(assets, path)?),
     }
     Ok(Vec::new())
@@ -163,7 +166,7 @@ mod tests {
         assert_eq!(kind("(name : \"a\", seconds : 1, expect : [oops])"), Ok(AssetKind::Scenario));
         assert_eq!(kind("(name: \"a\", latency: (, los: )"), Ok(AssetKind::Radio));
         assert_eq!(kind("{\"home 0\": 7"), Ok(AssetKind::Addresses));
-        let kinds = "strategy, scenario, match, pitch, robot, sensing preset, camera, radio, experiment, table of addresses";
+        let kinds = "strategy, scenario, match, pitch, robot, sensing preset, camera, radio, experiment, tuning, table of addresses";
         let unknown = Err(format!("its fields do not say what it is; there are: {kinds}"));
         for text in ["(name: \"a\")", "()", "(colour: Red)", "[package]", "7"] {
             assert_eq!(kind(text), unknown, "{text}");

@@ -22,6 +22,7 @@ mod robot;
 mod run;
 mod run_report;
 mod trials;
+mod tune;
 mod why;
 mod windows;
 
@@ -68,6 +69,9 @@ enum CliCommand {
     /// Put the parts of an experiment together that were played on several machines.
     #[command(after_help = EXIT_CODES)]
     Merge(merge::MergeCommand),
+    /// Search for the numbers with which a team does best, and compare them with those of before on other seeds.
+    #[command(after_help = EXIT_CODES)]
+    Tune(tune::TuneCommand),
     /// Take pictures of random moments with a calibrated camera, and print the numbers of the fast model of eyes that fit them.
     #[command(after_help = EXIT_CODES)]
     FitEyes(fit_eyes::FitEyesCommand),
@@ -117,6 +121,7 @@ impl Cli {
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::Experiment(experiment)) => experiment.run(&assets, &mut out),
             Some(CliCommand::Merge(merge)) => merge.run(&assets, &mut out),
+            Some(CliCommand::Tune(tune)) => tune.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
             Some(CliCommand::Export(export)) => export.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),

@@ -58,7 +58,8 @@ pub(super) fn judge_claims(plan: &ExperimentPlan, rows: &PairedRows, confidence:
     plan.file.claims.iter().map(judge).collect()
 }
 
-fn verdict(is: ClaimedDifference, difference: Option<&PairedDifference>) -> ClaimVerdict {
+/// What a difference says of a claim.
+pub(in crate::lab) fn verdict(is: ClaimedDifference, difference: Option<&PairedDifference>) -> ClaimVerdict {
     let Some(interval) = difference.and_then(|difference| difference.interval) else {
         return ClaimVerdict::CannotBeSaid;
     };

@@ -141,6 +141,13 @@ pub struct SeedBlocks {
     pub number: u32,
 }
 
+impl SeedBlocks {
+    /// All of them, in order.
+    pub fn seeds(self) -> impl Iterator<Item = u64> {
+        (self.first..).take(self.number as usize)
+    }
+}
+
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -16,6 +16,7 @@ mod table;
 mod treatment;
 mod until;
 
+pub(in crate::lab) use claim::verdict;
 pub use claim::{ClaimVerdict, JudgedClaim};
 pub use file::{
     ClaimedDifference, DesignChange, ExperimentFile, Factor, FactorLevels, NamedLevel, SeedBlocks,
@@ -27,3 +28,4 @@ pub use plan::ExperimentPlan;
 pub use row::{ExperimentRow, MatchResult, RowKey};
 pub use summary::{ExperimentSummary, FigureSummary, TreatmentSummary};
 pub use table::{TableWriter, read_csv, write_csv};
+pub(in crate::lab) use treatment::{PlacedChange, TreatmentPlan, number_at};

@@ -1,15 +1,11 @@
 //! What is played in an experiment: every treatment with every seed, on both sides.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use super::file::ExperimentFile;
-use super::metric::{MatchFigures, Metric};
-use super::row::{ExperimentRow, MatchResult, RowKey};
+use super::row::{ExperimentRow, RowKey};
 use super::treatment::{PlacedChange, TreatmentPlan};
 use crate::data::{AssetFolder, AssetKind, DataError, Field};
-use crate::game::Match;
-use crate::ids::Team;
 
 /// An experiment that can be played. Its matches are numbered seed by seed, so that the first rows of a table hold as many
 /// matches of one treatment as of another.
@@ -99,33 +95,14 @@ impl ExperimentPlan {
     pub fn play(&self, row: u64) -> ExperimentRow {
         let key = self.key(row);
         let treatment = &self.treatments[key.treatment];
-        let played = catch_unwind(AssertUnwindSafe(|| play(treatment, &key)));
         ExperimentRow {
             levels: self.level_names(key.treatment),
             strategies: treatment.strategies.clone(),
             assets: treatment.assets,
-            result: played.map_err(|cause| message(&*cause)),
+            result: treatment.play(key.seed, key.swapped),
             key,
         }
     }
-}
-
-fn play(treatment: &TreatmentPlan, key: &RowKey) -> MatchResult {
-    let mut game = Match::new(&treatment.plan(key.seed, key.swapped));
-    while !game.is_over() {
-        game.tick();
-    }
-    let sides = if key.swapped { [Team::Away, Team::Home] } else { Team::BOTH };
-    let figures = MatchFigures::of(&game);
-    let values = sides.map(|team| Metric::ALL.iter().map(|metric| metric.value(figures, team)).collect());
-    let (record, clock) = (game.record(), game.clock());
-    MatchResult { digest: record.digest, seconds: clock.now(), played: record.played, values }
-}
-
-/// What a panic says.
-fn message(cause: &(dyn std::any::Any + Send)) -> String {
-    let text = cause.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| cause.downcast_ref::<String>().cloned()).unwrap_or_else(|| "the match broke off".into())
 }
 
 /// The place of a treatment's level in each factor; the last factor changes fastest.

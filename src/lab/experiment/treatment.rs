@@ -1,25 +1,31 @@
 //! From a treatment, a list of changes, to the match that is played.
 
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
 use xxhash_rust::xxh3::Xxh3;
 
 use super::file::DesignChange;
+use super::metric::{MatchFigures, Metric};
+use super::row::MatchResult;
 use crate::data::{
-    AssetFolder, AssetKind, AssetTexts, DataError, Field, Segment, Source, no_such, numbers, with_number,
+    AssetFolder, AssetKind, AssetTexts, DataError, Field, NumberToken, Segment, Source, no_such, numbers,
+    with_number,
 };
 use crate::game::requests::Request;
-use crate::game::{Choice, MatchPlan, file_named};
+use crate::game::{Choice, Match, MatchPlan, file_named};
 use crate::ids::Team;
 use crate::lab::scenario::{Dependency, TimedEvent, check_event_of_match, has, requests, switch_off};
+use crate::strategy::Strategy;
 
 /// What is changed of a match, and where the design says so.
-pub(super) type PlacedChange = (Field, DesignChange);
+pub(in crate::lab) type PlacedChange = (Field, DesignChange);
 
 /// A treatment that can be played.
 #[derive(Clone, Debug)]
-pub(super) struct TreatmentPlan {
+pub(in crate::lab) struct TreatmentPlan {
     /// With the teams on their own sides, and on each other's.
     plans: [MatchPlan; 2],
     /// The files of the strategies, as they are named.
@@ -62,10 +68,34 @@ impl TreatmentPlan {
         Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets })
     }
 
-    /// The match with a seed.
-    pub fn plan(&self, seed: u64, swapped: bool) -> MatchPlan {
-        MatchPlan { seed, ..self.plans[usize::from(swapped)].clone() }
+    /// Plays the match with a seed. One that breaks the program is an error that says so.
+    pub fn play(&self, seed: u64, swapped: bool) -> Result<MatchResult, String> {
+        let plan = MatchPlan { seed, ..self.plans[usize::from(swapped)].clone() };
+        catch_unwind(AssertUnwindSafe(|| play(&plan, swapped))).map_err(|cause| message(&*cause))
     }
+
+    /// The strategy of the team that is named second.
+    pub fn opponent(&self) -> &Strategy {
+        &self.plans[0].teams[1].strategy
+    }
+}
+
+fn play(plan: &MatchPlan, swapped: bool) -> MatchResult {
+    let mut game = Match::new(plan);
+    while !game.is_over() {
+        game.tick();
+    }
+    let sides = if swapped { [Team::Away, Team::Home] } else { Team::BOTH };
+    let figures = MatchFigures::of(&game);
+    let values = sides.map(|team| Metric::ALL.iter().map(|metric| metric.value(figures, team)).collect());
+    let (record, clock) = (game.record(), game.clock());
+    MatchResult { digest: record.digest, seconds: clock.now(), played: record.played, values }
+}
+
+/// What a panic says.
+fn message(cause: &(dyn Any + Send)) -> String {
+    let text = cause.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| cause.downcast_ref::<String>().cloned()).unwrap_or_else(|| "the match broke off".into())
 }
 
 /// The files that are other than in the asset folder.
@@ -97,13 +127,9 @@ fn changed_texts(
         match change {
             DesignChange::Number { file, path, to } => {
                 let (place, text) = text_of(&texts, "file", file)?;
-                let known = numbers(&text);
-                let number = known.iter().find(|number| number.field.to_string() == *path);
-                let number = number.ok_or_else(|| {
-                    let paths = known.iter().map(|number| number.field.to_string());
-                    design.error_at(&at.key("path"), no_such("number", path, paths))
-                })?;
-                texts.insert(place, with_number(&text, number, *to));
+                let number =
+                    number_at(&text, path).map_err(|message| design.error_at(&at.key("path"), message))?;
+                texts.insert(place, with_number(&text, &number, *to));
             }
             DesignChange::Instead { of, read } => {
                 let (_, text) = text_of(&texts, "read", read)?;
@@ -114,6 +140,18 @@ fn changed_texts(
         }
     }
     Ok(texts)
+}
+
+/// The number of a text with this path.
+///
+/// # Errors
+/// If there is none: which there are.
+pub(in crate::lab) fn number_at(text: &str, path: &str) -> Result<NumberToken, String> {
+    let mut known = numbers(text);
+    match known.iter().position(|number| number.field.to_string() == path) {
+        Some(place) => Ok(known.swap_remove(place)),
+        None => Err(no_such("number", path, known.iter().map(|number| number.field.to_string()))),
+    }
 }
 
 /// Whether a change is one of the values of a factor.

@@ -53,15 +53,7 @@ impl ResultsFolder {
     /// # Errors
     /// If it holds something else than matches of this very experiment.
     pub fn read(&self, plan: &ExperimentPlan) -> Result<Vec<ExperimentRow>, DataError> {
-        let design = self.design();
-        match fs::read_to_string(&design) {
-            Ok(text) if text == plan.text => {}
-            Ok(_) => {
-                return Err(DataError::new(design, "is another experiment; name another folder with --out"));
-            }
-            Err(error) if error.kind() == ErrorKind::NotFound => {}
-            Err(error) => return Err(DataError::new(design, format!("cannot be read: {error}"))),
-        }
+        check_design(&self.design(), &plan.text, "experiment")?;
         let path = self.csv();
         if !path.exists() {
             return Ok(Vec::new());
@@ -87,5 +79,18 @@ impl ResultsFolder {
         let (path, mut bytes) = (self.csv(), Vec::new());
         let written = write_csv(plan, rows, &mut bytes).and_then(|()| write_whole(&path, &bytes));
         written.map_err(CommandError::file(&path))
+    }
+}
+
+/// Whether there is a design in a folder, which must be this one.
+///
+/// # Errors
+/// If it is another, or cannot be read.
+pub(in crate::app::cli) fn check_design(path: &Path, text: &str, what: &str) -> Result<bool, DataError> {
+    match fs::read_to_string(path) {
+        Ok(known) if known == text => Ok(true),
+        Ok(_) => Err(DataError::new(path, format!("is another {what}; name another folder with --out"))),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(DataError::new(path, format!("cannot be read: {error}"))),
     }
 }

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-pub(super) use self::folder::ResultsFolder;
+pub(super) use self::folder::{ResultsFolder, check_design};
 use self::shard::Shard;
 use super::ending::{CommandError, Ending, print_json, tell};
 use super::interrupt::Interrupt;
@@ -43,7 +43,8 @@ impl ExperimentCommand {
             let message = "parts cannot know when enough is known; the design has `until`";
             return Err(DataError::new("--shard", message).into());
         }
-        let folder = ResultsFolder::new(self.out.clone().unwrap_or_else(|| usual_folder(&self.file)));
+        let folder =
+            ResultsFolder::new(self.out.clone().unwrap_or_else(|| folder_beside(&self.file, "results")));
         match self.row {
             Some(row) => play_row(&plan, row, &folder, out),
             None => self.play(&plan, &folder, out),
@@ -96,13 +97,14 @@ impl ExperimentCommand {
     }
 }
 
-fn usual_folder(file: &str) -> PathBuf {
+/// A folder of this directory, named as a file with another ending.
+pub(super) fn folder_beside(file: &str, ending: &str) -> PathBuf {
     let stem = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
-    PathBuf::from(format!("{}.results", stem.unwrap_or_default()))
+    PathBuf::from(format!("{}.{ending}", stem.unwrap_or_default()))
 }
 
 /// A match that breaks off is a row that says so, and not a report of the program's fault on the way.
-fn quietly<T>(run: impl FnOnce() -> T) -> T {
+pub(super) fn quietly<T>(run: impl FnOnce() -> T) -> T {
     let usual = std::panic::take_hook();
     std::panic::set_hook(Box::new(|_| {}));
     let done = run();

@@ -1,0 +1,186 @@
+//! A tuning as it is written: the serde types of `assets/tunings/*.ron`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::data::{Fault, Field, Validate, check_count, ensure};
+use crate::lab::experiment::{ClaimedDifference, DesignChange, Metric, SeedBlocks};
+use crate::rng::LARGEST_SEED;
+
+/// Which numbers are to be found, by which matches they are judged, and what they may not break.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TuningFile {
+    /// What is sought, as a sentence.
+    pub name: String,
+    /// More about it, for people.
+    #[serde(default)]
+    pub description: String,
+    /// The matches that are played; home is the team that is tuned.
+    #[serde(default)]
+    pub common: Vec<DesignChange>,
+    /// The numbers that may change.
+    pub parameters: Vec<TunedParameter>,
+    /// Parameters whose values never fall from left to right, by name: relations that a paper states.
+    #[serde(default)]
+    pub never_falling: Vec<Vec<String>>,
+    /// What the best numbers have most or least of.
+    pub objective: TuningObjective,
+    /// The seeds on which candidates race.
+    pub training: SeedBlocks,
+    /// The seeds on which the winner is then compared with the numbers of before.
+    pub held_out: SeedBlocks,
+    /// How many candidates begin each race.
+    pub candidates: u32,
+    /// How many races there are, each about the best of the one before.
+    pub races: u32,
+}
+
+/// A number that may change, at one place or with the same value at several.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TunedParameter {
+    /// Its name in tables.
+    pub name: String,
+    /// Where it stands; places that a paper says to be equal are one parameter.
+    pub at: Vec<TunedNumber>,
+    /// The least that it may be.
+    pub low: f64,
+    /// The most.
+    pub high: f64,
+}
+
+/// A place of a number.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TunedNumber {
+    /// Where the file is in the asset folder, such as `strategies/chaos_b3p.ron`.
+    pub file: String,
+    /// Where the number is in the file, such as `teamwork.ball_booking.timeout`.
+    pub path: String,
+}
+
+/// What candidates are judged by.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TuningObjective {
+    /// A figure of the home team.
+    pub metric: Metric,
+    /// Whether more of it is better, or less.
+    pub better: ClaimedDifference,
+}
+
+/// Candidates of a race and races at most.
+const MOST: usize = 1000;
+/// Seeds of a kind at most.
+const SEEDS: usize = 100_000;
+
+impl Validate for TuningFile {
+    fn validate(&self) -> Result<(), Fault> {
+        check_count("parameters", "the number of parameters", self.parameters.len(), 1..=MOST)?;
+        check_count("candidates", "the number of candidates", self.candidates as usize, 2..=MOST)?;
+        check_count("races", "the number of races", self.races as usize, 1..=MOST)?;
+        check_seeds("training", self.training)?;
+        check_seeds("held_out", self.held_out)?;
+        let apart = self.training.first + u64::from(self.training.number) <= self.held_out.first
+            || self.held_out.first + u64::from(self.held_out.number) <= self.training.first;
+        ensure(apart, "held_out.first", || "seeds that judge must not be seeds of the training".into())?;
+        for (place, parameter) in self.parameters.iter().enumerate() {
+            let at = Field::root().key("parameters").index(place);
+            let is_new = self.parameters[..place].iter().all(|other| other.name != parameter.name);
+            let named = ensure(is_new, "name", || "is the name of another parameter".into());
+            named.and_then(|()| parameter.validate()).map_err(|fault| fault.inside(&at))?;
+        }
+        for (place, names) in self.never_falling.iter().enumerate() {
+            let unknown = names.iter().position(|name| self.place_of(name).is_none());
+            ensure(unknown.is_none(), &format!("never_falling.{place}"), || {
+                "names something that is no parameter".into()
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl TuningFile {
+    /// Whether values, one for each parameter, keep the relations that the file states.
+    pub fn admits(&self, values: &[f64]) -> bool {
+        self.never_falling.iter().all(|names| {
+            names.iter().filter_map(|name| self.place_of(name)).map(|place| values[place]).is_sorted()
+        })
+    }
+
+    fn place_of(&self, name: &str) -> Option<usize> {
+        self.parameters.iter().position(|parameter| parameter.name == name)
+    }
+}
+
+fn check_seeds(field: &str, seeds: SeedBlocks) -> Result<(), Fault> {
+    check_count(&format!("{field}.number"), "the number of seeds", seeds.number as usize, 1..=SEEDS)?;
+    let last = seeds.first.checked_add(seeds.number.into());
+    ensure(last.is_some_and(|last| last <= LARGEST_SEED), &format!("{field}.first"), || {
+        format!("seeds must be {LARGEST_SEED} at most")
+    })
+}
+
+impl Validate for TunedParameter {
+    fn validate(&self) -> Result<(), Fault> {
+        ensure(!self.name.trim().is_empty(), "name", || "is empty".into())?;
+        ensure(!self.at.is_empty(), "at", || "needs a place".into())?;
+        ensure(self.low.is_finite(), "low", || "must be finite".into())?;
+        ensure(self.high.is_finite() && self.low < self.high, "high", || {
+            format!("must be more than {}", self.low)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::Source;
+
+    const SOUND: &str = r#"(
+        name: "x",
+        parameters: [
+            (name: "slow", at: [(file: "a.ron", path: "b")], low: 0, high: 1),
+            (name: "fast", at: [(file: "a.ron", path: "c")], low: 0, high: 1),
+        ],
+        never_falling: [["slow", "fast"]],
+        objective: (metric: GoalDifference, better: More),
+        training: (first: 1, number: 10),
+        held_out: (first: 100, number: 10),
+        candidates: 4,
+        races: 2,
+    )"#;
+
+    fn read(text: &str) -> Result<TuningFile, String> {
+        Source::new("a.ron", text).parse_sound().map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn stated_relations_are_kept() {
+        let file = read(SOUND).unwrap();
+        assert!(file.admits(&[0.2, 0.2]) && file.admits(&[0.2, 0.3]));
+        assert!(!file.admits(&[0.3, 0.2]));
+    }
+
+    #[test]
+    fn what_cannot_be_tuned_is_refused_at_its_place() {
+        for (was, is, named) in [
+            ("first: 100", "first: 10", "held_out.first"),
+            ("candidates: 4", "candidates: 1", "candidates"),
+            ("races: 2", "races: 0", "races"),
+            ("\"fast\", at", "\"slow\", at", "parameters[1].name"),
+            ("[[\"slow\"", "[[\"slowest\"", "never_falling"),
+            (
+                "low: 0, high: 1),\n            (name: \"fast\"",
+                "low: 1, high: 1),\n            (name: \"fast\"",
+                "parameters[0].high",
+            ),
+            ("number: 10),\n        held", "number: 0),\n        held", "training.number"),
+        ] {
+            let text = SOUND.replacen(was, is, 1);
+            assert_ne!(text, SOUND, "{was}");
+            let error = read(&text).unwrap_err();
+            assert!(error.contains(named), "{error}");
+        }
+    }
+}
