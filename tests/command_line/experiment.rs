@@ -8,7 +8,7 @@ use super::{text, touchline};
 use crate::support::assets;
 
 /// Two treatments, two seeds, both sides: eight matches of six seconds a half.
-const DESIGN: &str = r#"(
+pub(super) const DESIGN: &str = r#"(
     name: "Does loss matter?",
     common: [HalfMinutes(0.1), Home("hammerheads_2001")],
     factors: [(name: "loss", levels: Values(file: "radios/good.ron", path: "loss.Independent[0]", values: [0, 0.9]))],
@@ -16,18 +16,18 @@ const DESIGN: &str = r#"(
     metrics: [PacketsLost],
 )"#;
 
-struct Stage {
+pub(super) struct Stage {
     folder: tempfile::TempDir,
 }
 
 impl Stage {
-    fn new(design: &str) -> Stage {
+    pub fn new(design: &str) -> Stage {
         let folder = tempfile::tempdir().expect("a folder");
         fs::write(folder.path().join("loss.ron"), design).expect("the design is written");
         Stage { folder }
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 
@@ -36,7 +36,7 @@ impl Stage {
         touchline(&[&[command, &design, "--out", &out], more].concat())
     }
 
-    fn play(&self, out: &str, more: &[&str]) -> String {
+    pub fn play(&self, out: &str, more: &[&str]) -> String {
         let output = self.call("experiment", out, more);
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
         text(&output.stdout)

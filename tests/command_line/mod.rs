@@ -10,6 +10,7 @@ mod interrupt;
 mod options;
 mod output;
 mod replays;
+mod report;
 mod tune;
 
 use std::path::{Path, PathBuf};

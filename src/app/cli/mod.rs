@@ -18,9 +18,11 @@ mod play;
 mod progress;
 mod recording;
 mod replay;
+mod report;
 mod robot;
 mod run;
 mod run_report;
+mod shell_word;
 mod trials;
 mod tune;
 mod why;
@@ -72,6 +74,9 @@ enum CliCommand {
     /// Search for the numbers with which a team does best, and compare them with those of before on other seeds.
     #[command(after_help = EXIT_CODES)]
     Tune(tune::TuneCommand),
+    /// Write what experiments say as a page with plots or as Markdown.
+    #[command(after_help = EXIT_CODES)]
+    Report(report::ReportCommand),
     /// Take pictures of random moments with a calibrated camera, and print the numbers of the fast model of eyes that fit them.
     #[command(after_help = EXIT_CODES)]
     FitEyes(fit_eyes::FitEyesCommand),
@@ -122,6 +127,7 @@ impl Cli {
             Some(CliCommand::Experiment(experiment)) => experiment.run(&assets, &mut out),
             Some(CliCommand::Merge(merge)) => merge.run(&assets, &mut out),
             Some(CliCommand::Tune(tune)) => tune.run(&assets, &mut out),
+            Some(CliCommand::Report(report)) => report.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),
             Some(CliCommand::Export(export)) => export.run(&assets, &mut out),
             Some(CliCommand::Robot(robot)) => robot.run(&assets, &mut out),

@@ -43,8 +43,10 @@ pub struct ExperimentFile {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatedClaim {
-    /// The sentence, and whose it is.
+    /// The sentence.
     pub says: String,
+    /// Whose it is: a paper and its section, or ours.
+    pub source: String,
     /// The figure that it is about.
     pub metric: Metric,
     /// The levels of the treatment that it speaks of, one for each factor.
@@ -56,12 +58,14 @@ pub struct StatedClaim {
 }
 
 /// Which way a claim goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ClaimedDifference {
     /// The first treatment has less.
     Less,
     /// It has more.
     More,
+    /// They differ by less than this, in the unit of the metric.
+    Within(f64),
 }
 
 fn yes() -> bool {
@@ -168,10 +172,27 @@ impl ExperimentFile {
         if levels.len() != self.factors.len() {
             return None;
         }
-        self.factors.iter().zip(levels).try_fold(0, |number, (factor, level)| {
-            let place = factor.levels.names().iter().position(|name| name == level)?;
-            Some(number * factor.levels.len() + place)
-        })
+        let place =
+            |(factor, level): (&Factor, _)| factor.levels.names().iter().position(|name| name == level);
+        let places: Option<Vec<usize>> = self.factors.iter().zip(levels).map(place).collect();
+        Some(self.treatment_at(&places?))
+    }
+
+    /// The number of the treatment with the levels at these places, one for each factor.
+    pub fn treatment_at(&self, places: &[usize]) -> usize {
+        let factors = self.factors.iter().zip(places);
+        factors.fold(0, |number, (factor, place)| number * factor.levels.len() + place)
+    }
+
+    /// The places of a treatment's levels, one for each factor.
+    pub fn places(&self, treatment: usize) -> Vec<usize> {
+        let mut rest = treatment;
+        let mut places = vec![0; self.factors.len()];
+        for (place, factor) in places.iter_mut().zip(&self.factors).rev() {
+            *place = rest % factor.levels.len();
+            rest /= factor.levels.len();
+        }
+        places
     }
 
     /// How many treatments there are.
@@ -238,6 +259,12 @@ impl Validate for ExperimentFile {
         }
         check_count("factors", "the number of treatments", self.treatments(), 1..=TREATMENTS)?;
         for (place, claim) in self.claims.iter().enumerate() {
+            if let ClaimedDifference::Within(margin) = claim.is {
+                let at = format!("claims.{place}.is.Within");
+                ensure(margin > 0.0 && margin.is_finite(), &at, || {
+                    format!("must be positive, not {margin}")
+                })?;
+            }
             for (field, levels) in [("of", &claim.of), ("than", &claim.than)] {
                 let at = format!("claims.{place}.{field}");
                 ensure(self.treatment(levels).is_some(), &at, || {

@@ -4,6 +4,7 @@
 //! [`ExperimentRow`] with the value of every [`Metric`].
 
 mod claim;
+mod figure_words;
 mod file;
 mod metric;
 mod pairing;
@@ -18,14 +19,16 @@ mod until;
 
 pub(in crate::lab) use claim::verdict;
 pub use claim::{ClaimVerdict, JudgedClaim};
+pub use figure_words::{MeanWithInterval, probability};
 pub use file::{
     ClaimedDifference, DesignChange, ExperimentFile, Factor, FactorLevels, NamedLevel, SeedBlocks,
     StatedClaim, UntilRule,
 };
 pub use metric::{MatchFigures, Metric};
+pub use pairing::PairedRows;
 pub use parquet::write_parquet;
 pub use plan::ExperimentPlan;
 pub use row::{ExperimentRow, MatchResult, RowKey};
-pub use summary::{ExperimentSummary, FigureSummary, TreatmentSummary};
+pub use summary::{CONFIDENCE, ExperimentSummary, FigureSummary, TreatmentSummary};
 pub use table::{TableWriter, read_csv, write_csv};
 pub(in crate::lab) use treatment::{PlacedChange, TreatmentPlan, number_at};

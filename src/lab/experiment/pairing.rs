@@ -8,12 +8,13 @@ use super::row::ExperimentRow;
 use crate::lab::statistics::mean;
 
 /// The rows of an experiment by treatment.
-pub(super) struct PairedRows<'a> {
+pub struct PairedRows<'a> {
     treatments: Vec<Vec<&'a ExperimentRow>>,
     sides: usize,
 }
 
 impl<'a> PairedRows<'a> {
+    /// Sorts rows by their treatments.
     pub fn of(plan: &ExperimentPlan, rows: &'a [ExperimentRow]) -> PairedRows<'a> {
         let mut treatments = vec![Vec::new(); plan.treatments()];
         for row in rows {

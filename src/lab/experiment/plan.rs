@@ -42,7 +42,7 @@ impl ExperimentPlan {
                 return Err(source.error_at(&at, format!("{} is the name of a column already", factor.name)));
             }
         }
-        let levels: Vec<Vec<usize>> = (0..file.treatments()).map(|number| levels_of(&file, number)).collect();
+        let levels: Vec<Vec<usize>> = (0..file.treatments()).map(|number| file.places(number)).collect();
         let treatments =
             levels.iter().map(|levels| TreatmentPlan::read(assets, &source, &changes(&file, levels)));
         let treatments = treatments.collect::<Result<Vec<_>, _>>()?;
@@ -60,7 +60,7 @@ impl ExperimentPlan {
     }
 
     /// How many matches a treatment has with a seed.
-    pub(super) fn sides(&self) -> usize {
+    pub fn sides(&self) -> usize {
         1 + usize::from(self.file.swap_sides)
     }
 
@@ -86,6 +86,11 @@ impl ExperimentPlan {
         }
     }
 
+    /// The strategies of a treatment, that of the team that is named first first.
+    pub fn strategies(&self, treatment: usize) -> &[String; 2] {
+        &self.treatments[treatment].strategies
+    }
+
     /// What the files of a treatment's matches hold, as a number.
     pub fn assets_hash(&self, treatment: usize) -> u64 {
         self.treatments[treatment].assets
@@ -103,18 +108,6 @@ impl ExperimentPlan {
             key,
         }
     }
-}
-
-/// The place of a treatment's level in each factor; the last factor changes fastest.
-fn levels_of(file: &ExperimentFile, treatment: usize) -> Vec<usize> {
-    let mut rest = treatment;
-    let mut levels: Vec<usize> = Vec::new();
-    for factor in file.factors.iter().rev() {
-        levels.push(rest % factor.levels.len());
-        rest /= factor.levels.len();
-    }
-    levels.reverse();
-    levels
 }
 
 fn changes(file: &ExperimentFile, levels: &[usize]) -> Vec<PlacedChange> {

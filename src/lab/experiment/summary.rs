@@ -6,6 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::Serialize;
 
 use super::claim::{JudgedClaim, judge_claims};
+use super::figure_words::{MeanWithInterval, probability};
 use super::metric::Metric;
 use super::pairing::PairedRows;
 use super::plan::ExperimentPlan;
@@ -51,7 +52,7 @@ pub struct FigureSummary {
 }
 
 /// Of the intervals of a summary.
-const CONFIDENCE: f64 = 0.95;
+pub const CONFIDENCE: f64 = 0.95;
 
 impl ExperimentSummary {
     /// Sums rows up; those of seeds that were not played on both sides do not count.
@@ -119,24 +120,4 @@ impl Display for TreatmentSummary {
         }
         Ok(())
     }
-}
-
-/// "0.31 [0.28, 0.34]".
-struct MeanWithInterval {
-    value: Option<f64>,
-    interval: Option<Interval>,
-}
-
-impl Display for MeanWithInterval {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match (self.value, self.interval) {
-            (None, _) => write!(f, "-"),
-            (Some(value), None) => write!(f, "{value:.3}"),
-            (Some(value), Some(Interval { low, high })) => write!(f, "{value:.3} [{low:.3}, {high:.3}]"),
-        }
-    }
-}
-
-fn probability(p: f64) -> String {
-    if p < 0.001 { "< 0.001".into() } else { format!("{p:.3}") }
 }

@@ -66,7 +66,26 @@ pub struct TuningObjective {
     /// A figure of the home team.
     pub metric: Metric,
     /// Whether more of it is better, or less.
-    pub better: ClaimedDifference,
+    pub better: BetterValue,
+}
+
+/// Which values of an objective are better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum BetterValue {
+    /// Smaller ones.
+    Less,
+    /// Larger ones.
+    More,
+}
+
+impl BetterValue {
+    /// What is claimed of values that are better.
+    pub(super) fn claim(self) -> ClaimedDifference {
+        match self {
+            BetterValue::Less => ClaimedDifference::Less,
+            BetterValue::More => ClaimedDifference::More,
+        }
+    }
 }
 
 /// Candidates of a race and races at most.

@@ -8,7 +8,7 @@ mod race;
 mod report;
 mod row;
 
-pub use file::{TunedNumber, TunedParameter, TuningFile, TuningObjective};
+pub use file::{BetterValue, TunedNumber, TunedParameter, TuningFile, TuningObjective};
 pub use plan::{TuningCandidate, TuningPlan};
 pub use race::{ParameterSpace, RaceEnd, RaceEntrant, RaceRules, race};
 pub use report::{TunedValue, TuningReport};

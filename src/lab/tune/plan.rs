@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::file::{TunedNumber, TuningFile};
+use super::file::{BetterValue, TunedNumber, TuningFile};
 use super::race::ParameterSpace;
 use super::row::TuningRow;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, with_number};
 use crate::lab::all_cores::on_all_cores;
-use crate::lab::experiment::{ClaimedDifference, DesignChange, PlacedChange, TreatmentPlan, number_at};
+use crate::lab::experiment::{DesignChange, PlacedChange, TreatmentPlan, number_at};
 
 /// A tuning that can be played.
 #[derive(Clone, Debug)]
@@ -118,8 +118,8 @@ impl TuningPlan {
     /// What is better of two values of the objective has the higher score.
     pub fn score(&self, value: f64) -> f64 {
         match self.file.objective.better {
-            ClaimedDifference::More => value,
-            ClaimedDifference::Less => -value,
+            BetterValue::More => value,
+            BetterValue::Less => -value,
         }
     }
 

@@ -4,11 +4,11 @@ use std::fmt::{self, Display, Formatter};
 
 use serde::Serialize;
 
-use super::file::TuningObjective;
+use super::file::{BetterValue, TuningObjective};
 use super::plan::TuningPlan;
 use super::race::RaceEntrant;
 use super::row::KnownMatches;
-use crate::lab::experiment::{ClaimVerdict, ClaimedDifference, SeedBlocks, verdict};
+use crate::lab::experiment::{ClaimVerdict, SeedBlocks, verdict};
 use crate::lab::statistics::{PairedDifference, compare_pairs, mean};
 use crate::rng::{DEFAULT_SEED, Seed};
 
@@ -68,7 +68,10 @@ impl TuningReport {
                 })
                 .collect(),
             training: compared(plan.file.training),
-            better: verdict(plan.file.objective.better, held_out.as_ref()),
+            better: verdict(
+                plan.file.objective.better.claim(),
+                held_out.as_ref().and_then(|difference| difference.interval),
+            ),
             held_out,
             matches: known.len(),
         }
@@ -134,7 +137,7 @@ impl Display for TuningReport {
 
 fn word(objective: TuningObjective) -> &'static str {
     match objective.better {
-        ClaimedDifference::More => "The most",
-        ClaimedDifference::Less => "The least",
+        BetterValue::More => "The most",
+        BetterValue::Less => "The least",
     }
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::cli::ending::CommandError;
 use crate::app::whole_file::write_whole;
-use crate::data::{DataError, Source};
+use crate::data::{AssetFolder, DataError, Source};
 use crate::lab::experiment::{
     ExperimentPlan, ExperimentRow, TableWriter, read_csv, write_csv, write_parquet,
 };
@@ -28,8 +28,21 @@ impl ResultsFolder {
         self.0.join("rows.csv")
     }
 
-    fn design(&self) -> PathBuf {
+    /// What was asked.
+    pub fn design(&self) -> PathBuf {
         self.0.join("design.ron")
+    }
+
+    /// Reads the experiment that left the folder.
+    ///
+    /// # Errors
+    /// If there is none, or it cannot be played any more.
+    pub fn plan(&self, assets: &AssetFolder) -> Result<ExperimentPlan, DataError> {
+        let design = self.design();
+        if !design.is_file() {
+            return Err(DataError::new(&self.0, "holds no design.ron: it is no folder of an experiment"));
+        }
+        ExperimentPlan::read_file(assets, &design)
     }
 
     /// Makes the folder, or goes on in it: the rows that are there.
@@ -59,6 +72,17 @@ impl ResultsFolder {
             return Ok(Vec::new());
         }
         read_csv(plan, &path, &Source::read(&path)?.text)
+    }
+
+    /// As [`ResultsFolder::read`], of a table that must be there.
+    ///
+    /// # Errors
+    /// As there, and if there is no table.
+    pub fn played(&self, plan: &ExperimentPlan) -> Result<Vec<ExperimentRow>, DataError> {
+        if !self.csv().is_file() {
+            return Err(DataError::new(&self.0, "holds no rows.csv"));
+        }
+        self.read(plan)
     }
 
     /// The table, to add rows to.

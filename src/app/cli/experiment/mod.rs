@@ -19,8 +19,12 @@ use crate::lab::experiment::{ExperimentPlan, ExperimentRow, ExperimentSummary, M
 
 #[derive(Args, Debug)]
 pub(super) struct ExperimentCommand {
-    /// The experiment: a name among the assets or a path.
-    file: String,
+    /// The experiments, one after the other: names among the assets or paths.
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<String>,
+    /// Play no more seeds of each experiment than these, the first ones; later, more can be played in the same folder.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    seeds: Option<u32>,
     /// The folder of the tables; the name of the experiment with `.results` behind it if not given. What is there already is
     /// not played again.
     #[arg(long, value_name = "FOLDER")]
@@ -38,28 +42,42 @@ pub(super) struct ExperimentCommand {
 
 impl ExperimentCommand {
     pub(super) fn run(&self, assets: &AssetFolder, out: &mut impl Write) -> Result<Ending, CommandError> {
-        let plan = ExperimentPlan::read(assets, &self.file)?;
-        if self.shard.is_some() && plan.file.until.is_some() {
+        let plans = self.files.iter().map(|file| ExperimentPlan::read(assets, file));
+        let plans = plans.collect::<Result<Vec<_>, _>>()?;
+        for (option, is_given) in [("--out", self.out.is_some()), ("--row", self.row.is_some())] {
+            if is_given && plans.len() > 1 {
+                return Err(DataError::new(option, "goes with one experiment alone").into());
+            }
+        }
+        if self.shard.is_some() && plans.iter().any(|plan| plan.file.until.is_some()) {
             let message = "parts cannot know when enough is known; the design has `until`";
             return Err(DataError::new("--shard", message).into());
         }
-        let folder =
-            ResultsFolder::new(self.out.clone().unwrap_or_else(|| folder_beside(&self.file, "results")));
-        match self.row {
-            Some(row) => play_row(&plan, row, &folder, out),
-            None => self.play(&plan, &folder, out),
+        let mut experiments = self.files.iter().zip(&plans).map(|(file, plan)| {
+            (plan, ResultsFolder::new(self.out.clone().unwrap_or_else(|| folder_beside(file, "results"))))
+        });
+        if let Some(row) = self.row {
+            return experiments.try_fold(Ending::Done, |_, (plan, folder)| play_row(plan, row, &folder, out));
         }
+        let interrupt = Interrupt::listen();
+        for (plan, folder) in experiments {
+            self.play((plan, &folder), &interrupt, out)?;
+            if interrupt.is_asked() {
+                break;
+            }
+        }
+        Ok(Ending::of_run(interrupt.is_asked()))
     }
 
     fn play(
         &self,
-        plan: &ExperimentPlan,
-        folder: &ResultsFolder,
+        (plan, folder): (&ExperimentPlan, &ResultsFolder),
+        interrupt: &Interrupt,
         out: &mut impl Write,
-    ) -> Result<Ending, CommandError> {
-        let interrupt = Interrupt::listen();
+    ) -> Result<(), CommandError> {
         let mut rows = folder.begin(plan)?;
-        let bar = progress_bar(0, "{bar:40} {pos} of {len} matches, {eta} left");
+        let bar = progress_bar(0, "{msg}: {bar:40} {pos} of {len} matches, {eta} left");
+        bar.set_message(plan.file.name.clone());
         let mut table = folder.table(plan)?;
         let mut missing = self.missing(plan, &rows);
         while !missing.is_empty() && !interrupt.is_asked() {
@@ -85,13 +103,14 @@ impl ExperimentCommand {
             write!(out, "{summary}")?;
             writeln!(out, "{} of {} matches in {}", rows.len(), plan.matches(), folder.path().display())?;
         }
-        Ok(Ending::of_run(interrupt.is_asked()))
+        Ok(())
     }
 
     /// The rows that are wanted and not there.
     fn missing(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Vec<u64> {
         let known: BTreeSet<u64> = rows.iter().map(|row| row.key.row).collect();
-        let wanted = u64::from(plan.wanted_seeds(rows)) * plan.in_block();
+        let seeds = plan.wanted_seeds(rows).min(self.seeds.unwrap_or(u32::MAX));
+        let wanted = u64::from(seeds) * plan.in_block();
         let mine = |row: &u64| self.shard.is_none_or(|shard| shard.has(plan, *row)) && !known.contains(row);
         (0..wanted).filter(mine).collect()
     }

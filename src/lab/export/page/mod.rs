@@ -23,6 +23,7 @@ pub use recorder::{PageRecorder, is_told};
 
 use super::palette;
 use crate::ids::Team;
+use crate::lab::html::{escaped, filled};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
@@ -86,37 +87,9 @@ fn colours() -> String {
     format!(":root {{\n{}\n}}", lines.join("\n"))
 }
 
-/// A text with `{{name}}` replaced by each part, once, and nothing replaced within parts.
-fn filled(text: &str, parts: &[(&str, String)]) -> String {
-    let mut pieces = text.split("{{");
-    let mut whole = pieces.next().unwrap_or_default().to_owned();
-    for piece in pieces {
-        let named = piece.split_once("}}");
-        let part =
-            named.and_then(|(name, rest)| Some((parts.iter().find(|(known, _)| *known == name)?, rest)));
-        match part {
-            Some(((_, part), rest)) => whole.extend([part, rest]),
-            None => whole.extend(["{{", piece]),
-        }
-    }
-    whole
-}
-
-/// A text as HTML shows it.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn parts_stand_at_their_names_and_are_not_filled_themselves() {
-        let parts = [("a", "{{b}}".to_owned()), ("b", "x".to_owned())];
-        assert_eq!(filled("1 {{a}} 2 {{b}} {{c}}", &parts), "1 {{b}} 2 x {{c}}");
-        assert_eq!(escaped("<A & B>"), "&lt;A &amp; B&gt;");
-    }
 
     #[test]
     fn the_page_asks_for_nothing_from_elsewhere() {
