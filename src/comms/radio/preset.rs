@@ -221,6 +221,9 @@ mod tests {
             (include_str!("../../../assets/radios/bursty.ron"), "Bursty", 0.2),
             (include_str!("../../../assets/radios/awful.ron"), "Awful", 0.5),
             (include_str!("../../../assets/radios/dead.ron"), "Dead", 1.0),
+            // As measured.
+            (include_str!("../../../assets/radios/nora.ron"), "Nora", 0.0141),
+            (include_str!("../../../assets/radios/odin.ron"), "Odin", 0.0186),
         ];
         for (text, name, loss) in presets {
             let radio = read(text);

@@ -99,6 +99,9 @@ macro_rules! metrics {
 
 metrics! {
     Goals "goals" [""] "Goals that the team scored." (m, team) m.score[team.index()].into();
+    GoalsAgainst "goals_against" [""] "Goals that the other team scored." (m, team) {
+        m.score[team.opponent().index()].into()
+    };
     GoalDifference "goal_difference" [""] "Its goals less those against it." (m, team) m.goals_ahead(team);
     Points "points" [""] "1 for a match that it won, a half for a draw." (m, team) {
         (m.goals_ahead(team).clamp(-1.0, 1.0) + 1.0) / 2.0
@@ -122,6 +125,8 @@ metrics! {
         m.per_minute(m.record.contacts.of_opponents().number);
     NobodyDrives "nobody_drives" [""] "Share of play in which none of its robots drove at the ball." (m, team)
         m.share(m.record.pursuit[team.index()].nobody.total);
+    NobodyDrivesLongest "nobody_drives_longest" ["s"] "Longest time in which none of its robots drove at the ball." (m, team)
+        m.record.pursuit[team.index()].nobody.longest;
     SeveralDrive "several_drive" [""] "Share of play in which two or more of its robots drove at the ball." (m, team)
         m.share(m.record.pursuit[team.index()].several.total);
     FartherDrives "farther_drives" [""] "Share of play in which one robot drove at the ball while a mate was nearer." (m, team)
@@ -132,6 +137,8 @@ metrics! {
         m.per_minute(count(m.record.pursuit[team.index()].alternations));
     BelievedNobody "believed_nobody" [""] "Share of play in which a robot of a booking team knew the ball and none believed to go." (m, team)
         m.share(m.record.bookings[team.index()].nobody_goes.total);
+    BelievedNobodyLongest "believed_nobody_longest" ["s"] "Longest time in which a robot knew the ball and none believed to go." (m, team)
+        m.record.bookings[team.index()].nobody_goes.longest;
     BelievedSeveral "believed_several" [""] "Share of play in which several robots of a booking team believed to go." (m, team)
         m.share(m.record.bookings[team.index()].several_go.total);
     LooseBallsWon "loose_balls_won" ["1/min"] "Balls that nobody had touched for a second and that it got, for a minute." (m, team)
