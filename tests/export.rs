@@ -10,7 +10,7 @@ use serde_json::Value;
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::geometry::{Pose, Vec2, wrap_angle};
 use touchline::ids::RobotId;
-use touchline::lab::export::{ExportError, ExportWishes, Exported, PageWish, export};
+use touchline::lab::export::{ExportError, ExportWishes, Exported, PageForks, PageWish, export};
 use touchline::robot::Trailer;
 use touchline::world::ball::Ball;
 
@@ -32,7 +32,7 @@ fn played() -> MatchPlan {
 
 static EXPORTED: LazyLock<Exported> = LazyLock::new(|| {
     let wishes = ExportWishes {
-        page: Some(PageWish { forks: 2 }),
+        page: Some(PageWish { forks: PageForks::BeforeGoals(2) }),
         log: true,
         picture: Some(900),
         film: Some(STRETCH),

@@ -94,3 +94,19 @@ fn a_recording_that_cannot_be_written_is_told_before_the_match() {
     assert_eq!(output.stdout, b"");
     assert!(text(&output.stderr).starts_with("/no/such/folder/a.replay: cannot be written: "));
 }
+
+#[test]
+fn the_answer_to_why_is_also_a_page_with_other_futures() {
+    let (folder, path) = folder();
+    record(&path);
+    let page = folder.path().join("why.html");
+    let asked = ["why", path_of(&path), "--horizon", "2", "--seeds", "0", "--most", "6", "--json"];
+    let output = touchline(&[&asked[..], &["--page", path_of(&page)]].concat());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let report: Value = serde_json::from_slice(&output.stdout).expect("the report is JSON");
+    assert!(report["tried"].as_u64() > Some(0), "{report}");
+    assert!(fs::read(&page).expect("it is written").starts_with(b"<!DOCTYPE html>"));
+    let nowhere = folder.path().join("nowhere/why.html");
+    let output = touchline(&["why", path_of(&path), "--page", path_of(&nowhere)]);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(3), 0), "it is told before the long work");
+}

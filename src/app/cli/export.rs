@@ -11,7 +11,9 @@ use super::progress::progress_bar;
 use crate::app::whole_file::{check_writable, write_whole};
 use crate::clock::Clock;
 use crate::data::{AssetFolder, DataError};
-use crate::lab::export::{ExportCounts, ExportError, ExportWishes, Exported, MOST_FORKS, PageWish, export};
+use crate::lab::export::{
+    ExportCounts, ExportError, ExportWishes, Exported, MOST_FORKS, PageForks, PageWish, export,
+};
 use crate::lab::replay::Replay;
 
 #[derive(Args, Debug)]
@@ -75,20 +77,9 @@ impl ExportCommand {
             check_writable(path).map_err(CommandError::file(path))?;
         }
         let replay = Replay::read(&self.replay)?;
-        let (plan, _) = replay.plans()?;
-        let interrupt = Interrupt::listen();
-        let bar = progress_bar(replay.ticks(), "{bar:40} {pos}/{len} ticks, {eta} left");
-        let exported = export(&plan, Some(replay.ticks()), wishes, &mut |tick| {
-            bar.set_position(tick);
-            !interrupt.is_asked()
-        });
-        bar.finish_and_clear();
-        let exported = match exported {
-            Err(ExportError::Interrupted) => return Ok(Ending::Interrupted),
-            Err(error) => return Err(DataError::new(&self.replay, error.to_string()).into()),
-            Ok(exported) => exported,
+        let Some(exported) = export_replay(&replay, wishes, &Interrupt::listen())? else {
+            return Ok(Ending::Interrupted);
         };
-        self.check(&exported, &replay)?;
         let written = self.write(&exported)?;
         if self.json {
             print_json(&exported.counts, out)?;
@@ -111,21 +102,11 @@ impl ExportCommand {
             return Err(DataError::new("--to", message));
         }
         Ok(ExportWishes {
-            page: self.html.as_ref().map(|_| PageWish { forks: self.forks }),
+            page: self.html.as_ref().map(|_| PageWish { forks: PageForks::BeforeGoals(self.forks) }),
             log: self.mcap.is_some(),
             picture: self.at,
             film,
         })
-    }
-
-    /// What is written is worth nothing if it is another match.
-    fn check(&self, exported: &Exported, replay: &Replay) -> Result<(), DataError> {
-        let recorded = replay.digest().map(|digest| format!("{digest:016x}"));
-        if recorded.is_none_or(|recorded| recorded == exported.counts.digest) {
-            return Ok(());
-        }
-        let message = "plays otherwise than it was recorded; `touchline replay` says from which tick on";
-        Err(DataError::new(&self.replay, message))
     }
 
     /// Writes all files, and tells their paths and sizes.
@@ -144,6 +125,35 @@ impl ExportCommand {
         }
         Ok(written)
     }
+}
+
+/// Plays a recorded match and writes what is wanted of it; nothing if Ctrl-C ends it.
+///
+/// # Errors
+/// If it cannot be played, or plays otherwise than it was recorded: what is written would be worth nothing.
+pub(super) fn export_replay(
+    replay: &Replay,
+    wishes: ExportWishes,
+    interrupt: &Interrupt,
+) -> Result<Option<Exported>, DataError> {
+    let (plan, _) = replay.plans()?;
+    let bar = progress_bar(replay.ticks(), "{bar:40} {pos}/{len} ticks, {eta} left");
+    let exported = export(&plan, Some(replay.ticks()), wishes, &mut |tick| {
+        bar.set_position(tick);
+        !interrupt.is_asked()
+    });
+    bar.finish_and_clear();
+    let exported = match exported {
+        Err(ExportError::Interrupted) => return Ok(None),
+        Err(error) => return Err(DataError::new(&replay.path, error.to_string())),
+        Ok(exported) => exported,
+    };
+    let recorded = replay.digest().map(|digest| format!("{digest:016x}"));
+    if recorded.is_some_and(|recorded| recorded != exported.counts.digest) {
+        let message = "plays otherwise than it was recorded; `touchline replay` says from which tick on";
+        return Err(DataError::new(&replay.path, message));
+    }
+    Ok(Some(exported))
 }
 
 fn tell(counts: &ExportCounts, written: &[(&Path, usize)], out: &mut impl Write) -> io::Result<()> {

@@ -6,10 +6,13 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::ending::{CommandError, Ending, print_json};
+use super::export::export_replay;
 use super::interrupt::Interrupt;
 use super::progress::progress_bar;
+use crate::app::whole_file::{check_writable, write_whole};
+use crate::lab::export::{ExportWishes, MOST_FORKS, PageForks, PageWish};
 use crate::lab::replay::Replay;
-use crate::lab::why::{WhyChoice, WhyPlan};
+use crate::lab::why::{WhyChoice, WhyPlan, WhyReport};
 
 #[derive(Args, Debug)]
 pub(super) struct WhyCommand {
@@ -30,13 +33,13 @@ pub(super) struct WhyCommand {
     /// Record the matches of the first findings in this folder, from which `replay` plays them.
     #[arg(long, value_name = "FOLDER")]
     forks: Option<PathBuf>,
+    /// Write the match as a page for a browser, with the first findings as other futures beside it.
+    #[arg(long, value_name = "FILE")]
+    page: Option<PathBuf>,
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
 }
-
-/// Findings that are recorded at most.
-const FORKS: usize = 12;
 
 /// Reads a time that the radio remembers.
 fn horizon(text: &str) -> Result<f32, String> {
@@ -46,6 +49,9 @@ fn horizon(text: &str) -> Result<f32, String> {
 
 impl WhyCommand {
     pub(super) fn run(&self, out: &mut impl Write) -> Result<Ending, CommandError> {
+        if let Some(page) = &self.page {
+            check_writable(page).map_err(CommandError::file(page))?;
+        }
         let replay = Replay::read(&self.file)?;
         let (at, horizon, seeds, most) = (self.at, self.horizon, self.seeds, self.most as usize);
         let plan = WhyPlan::read(&replay, WhyChoice { at, horizon, seeds, most })?;
@@ -62,12 +68,45 @@ impl WhyCommand {
         } else {
             write!(out, "{report}")?;
         }
-        for (place, finding) in report.findings.iter().take(FORKS).enumerate() {
-            let Some(folder) = self.forks.as_deref().filter(|_| !interrupt.is_asked()) else { break };
-            std::fs::create_dir_all(folder).map_err(CommandError::file(folder))?;
+        if !interrupt.is_asked() {
+            self.record_forks(&plan, &report, &interrupt)?;
+            self.write_page(&replay, &plan, &report, &interrupt)?;
+        }
+        Ok(Ending::of_run(report.interrupted || interrupt.is_asked()))
+    }
+
+    fn record_forks(
+        &self,
+        plan: &WhyPlan,
+        report: &WhyReport,
+        interrupt: &Interrupt,
+    ) -> Result<(), CommandError> {
+        let Some(folder) = &self.forks else { return Ok(()) };
+        std::fs::create_dir_all(folder).map_err(CommandError::file(folder))?;
+        for (place, finding) in report.findings.iter().take(MOST_FORKS).enumerate() {
+            if interrupt.is_asked() {
+                break;
+            }
             let path = folder.join(format!("{}.replay", place + 1));
             plan.record(finding, &path).map_err(CommandError::file(&path))?;
         }
-        Ok(Ending::of_run(report.interrupted))
+        Ok(())
+    }
+
+    fn write_page(
+        &self,
+        replay: &Replay,
+        plan: &WhyPlan,
+        report: &WhyReport,
+        interrupt: &Interrupt,
+    ) -> Result<(), CommandError> {
+        let Some(path) = &self.page else { return Ok(()) };
+        let forks = report.findings.iter().take(MOST_FORKS).map(|finding| plan.fork(finding)).collect();
+        let page = Some(PageWish { forks: PageForks::Given(forks) });
+        let exported = export_replay(replay, ExportWishes { page, ..ExportWishes::default() }, interrupt)?;
+        match exported.and_then(|exported| exported.page) {
+            Some(page) => write_whole(path, page.as_bytes()).map_err(CommandError::file(path)),
+            None => Ok(()),
+        }
     }
 }

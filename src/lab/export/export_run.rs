@@ -5,17 +5,18 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::drawing::{moment_figures, pitch_drawing, score_figures};
-use super::forks::{lost_before_goals, play_forks};
+use super::forks::{PageForks, lost_before_goals, most_telling, play_forks};
 use super::gif::GifRecorder;
 use super::log::LogWriter;
 use super::moment::{MatchMoment, MatchWatch};
-use super::page::PageRecorder;
+use super::page::{PageFork, PageRecorder};
 use super::svg::svg_of;
 use super::trails::Trails;
+use crate::clock::Clock;
 use crate::game::{Match, MatchPlan};
 
 /// What is to be written of a match. Ticks count those that are over.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ExportWishes {
     /// A page.
     pub page: Option<PageWish>,
@@ -28,10 +29,10 @@ pub struct ExportWishes {
 }
 
 /// How a page is to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PageWish {
-    /// Other futures that it has at most.
-    pub forks: usize,
+    /// The other futures that it has.
+    pub forks: PageForks,
 }
 
 /// What was written of a match.
@@ -149,8 +150,7 @@ impl Writers {
     fn new(plan: &MatchPlan, wishes: ExportWishes, game: &Match) -> Result<Writers, ExportError> {
         let dt = game.clock().dt;
         Ok(Writers {
-            wishes,
-            page: wishes.page.map(|_| PageRecorder::new(plan, dt)),
+            page: wishes.page.as_ref().map(|_| PageRecorder::new(plan, dt)),
             log: wishes.log.then(|| LogWriter::new(plan)).transpose()?,
             trails: Trails::new(TRAIL),
             picture: None,
@@ -159,6 +159,7 @@ impl Writers {
             ball_radius: plan.ball.radius,
             name: plan.name.clone(),
             plan_pitch: plan.pitch.clone(),
+            wishes,
         })
     }
 
@@ -208,19 +209,10 @@ impl Writers {
         let (score, digest_text) = (game.state().score, format!("{digest:016x}"));
         let counts = ExportCounts { ticks, score, digest: digest_text, ..ExportCounts::default() };
         let mut exported = Exported { picture: self.picture, counts, ..Exported::default() };
-        if let Some(mut page) = self.page {
+        if let Some((mut page, wish)) = self.page.zip(self.wishes.page) {
             page.note_under_way(watch.under_way());
-            let most = self.wishes.page.map_or(0, |wish| wish.forks);
-            let forks = lost_before_goals(&page, f64::from(game.clock().dt), 2 * most);
-            let scores = self.scores;
-            let score_at = |tick: u64| {
-                let known = scores.iter().take_while(|(from, _)| *from <= tick).last();
-                known.map_or([0; 2], |(_, score)| *score)
-            };
-            let played = play_forks(plan, (&forks, most), score_at, &mut |_| goes_on(ticks));
-            for fork in played.ok_or(ExportError::Interrupted)? {
-                page.add_fork(fork);
-            }
+            let forks = play_wished(plan, (wish.forks, &page), &self.scores, game, &mut || goes_on(ticks));
+            forks.ok_or(ExportError::Interrupted)?.into_iter().for_each(|fork| page.add_fork(fork));
             let page = page.finish(digest);
             let [messages, events, forks] = page.counts();
             exported.counts.page = Some(PageCounts { messages, events, forks });
@@ -236,4 +228,31 @@ impl Writers {
         }
         Ok(exported)
     }
+}
+
+/// Plays the other futures that a page is to have, to the end of the match at most; none if it is to stop.
+fn play_wished(
+    plan: &MatchPlan,
+    (wish, page): (PageForks, &PageRecorder),
+    scores: &[(u64, [u32; 2])],
+    game: &Match,
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Option<Vec<PageFork>> {
+    let score_at = |tick: u64| {
+        let known = scores.iter().take_while(|(from, _)| *from <= tick).last();
+        known.map_or([0; 2], |(_, score)| *score)
+    };
+    let Clock { tick: end, dt } = game.clock();
+    let (mut forks, most) = match wish {
+        PageForks::Given(forks) => (forks, None),
+        PageForks::BeforeGoals(most) => {
+            (lost_before_goals(page, &plan.script, f64::from(dt), 2 * most), Some(most))
+        }
+    };
+    forks.iter_mut().for_each(|fork| fork.until = fork.until.min(end));
+    let played = play_forks(plan, &forks, score_at, goes_on)?;
+    Some(match most {
+        Some(most) => most_telling(played, most, score_at),
+        None => played,
+    })
 }

@@ -1,24 +1,35 @@
-//! What would have become of a match: shortly before each goal a message is lost that arrived, and the match is played on.
+//! What would have become of a match: one thing in it happens otherwise, and it is played on.
 
 use super::moment::MatchWatch;
 use super::page::{ForkRecorder, PageFork, PageRecorder};
 use crate::comms::radio::{FaultRule, Transmission, TransmissionState};
 use crate::comms::tcm::DataType;
-use crate::game::requests::{RadioChange, Request, Requests};
+use crate::game::requests::{RadioChange, Request, Script};
 use crate::game::{Match, MatchPlan};
 use crate::state::Snapshot;
+
+/// Other futures of a match.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PageForks {
+    /// So many at most: shortly before each goal a message is lost that arrived.
+    BeforeGoals(usize),
+    /// These, in this order.
+    Given(Vec<ForkPlan>),
+}
 
 /// One thing that happens otherwise, and for how long the match is played on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForkPlan {
     /// What is changed, in words.
     pub title: String,
+    /// What is known to come of it, in words.
+    pub finding: Option<String>,
     /// The tick in which it is changed; the match before it is the same.
     pub from: u64,
     /// The last tick that is played.
     pub until: u64,
-    /// What is asked of the match then.
-    pub change: Request,
+    /// The requests of the whole match with the change.
+    pub script: Vec<(u64, Request)>,
 }
 
 /// The most forks that a page has.
@@ -38,8 +49,13 @@ const DECISIVE: [DataType; 6] = [
 ];
 
 /// For each goal, the last messages before it that arrived: as many for each as there are to be in all. Of messages that were said
-/// again and again the newest counts.
-pub fn lost_before_goals(page: &PageRecorder, dt: f64, most: usize) -> Vec<ForkPlan> {
+/// again and again the newest counts. Each is lost in a future of its own, besides what the script of the match asks for.
+pub fn lost_before_goals(
+    page: &PageRecorder,
+    script: &[(u64, Request)],
+    dt: f64,
+    most: usize,
+) -> Vec<ForkPlan> {
     let goals: Vec<u64> = page.goals().collect();
     let each = (most / goals.len().max(1)).clamp(1, 4);
     let plans = goals.iter().rev().flat_map(|goal| {
@@ -58,7 +74,7 @@ pub fn lost_before_goals(page: &PageRecorder, dt: f64, most: usize) -> Vec<ForkP
             is_new
         });
         led.truncate(each);
-        led.into_iter().map(|entry| lost(entry, *goal, dt)).collect::<Vec<_>>()
+        led.into_iter().map(|entry| lost(entry, script, *goal, dt)).collect::<Vec<_>>()
     });
     let mut plans: Vec<ForkPlan> = plans.take(most).collect();
     plans.sort_by_key(|fork| fork.from);
@@ -66,50 +82,63 @@ pub fn lost_before_goals(page: &PageRecorder, dt: f64, most: usize) -> Vec<ForkP
 }
 
 /// The message is lost on its way to all whom it was sent to in that tick.
-fn lost(entry: &Transmission, goal: u64, dt: f64) -> ForkPlan {
+fn lost(entry: &Transmission, script: &[(u64, Request)], goal: u64, dt: f64) -> ForkPlan {
     let (kind, from) = (entry.packet.kind, entry.packet.from);
     let rule = FaultRule::silencing(kind, from, entry.sent..entry.sent + 1, dt as f32);
+    let change = (entry.sent, Request::Radio(RadioChange::Fault(rule)));
     ForkPlan {
         title: format!("{kind} from {from} is lost"),
+        finding: None,
         from: entry.sent,
         until: goal + (AFTER / dt) as u64,
-        change: Request::Radio(RadioChange::Fault(rule)),
+        script: script.iter().cloned().chain([change]).collect(),
     }
 }
 
-/// Plays the match again, and each fork from its tick on; none if it is to stop. Forks that nothing is left of, since the match
-/// is over, are left out. Of those that are played so many are kept, those first that end with another score. `score_at` tells how the
-/// match itself stood at a tick.
+/// Plays the match again, and each fork from its tick on, in the order of their beginnings; none if it is to stop. They are handed
+/// over in the order in which they were given. `score_at` tells how the match itself stood at a tick.
 pub fn play_forks(
     plan: &MatchPlan,
-    (forks, most): (&[ForkPlan], usize),
+    forks: &[ForkPlan],
     score_at: impl Fn(u64) -> [u32; 2],
-    goes_on: &mut dyn FnMut(usize) -> bool,
+    goes_on: &mut dyn FnMut() -> bool,
 ) -> Option<Vec<PageFork>> {
     if forks.is_empty() {
         return Some(Vec::new());
     }
     let (mut game, mut other) = (Match::new(plan), Match::new(plan));
+    let mut by_beginning: Vec<(usize, &ForkPlan)> = forks.iter().enumerate().collect();
+    by_beginning.sort_by_key(|(_, fork)| fork.from);
     let mut played = Vec::new();
-    for (number, fork) in forks.iter().enumerate() {
+    for (place, fork) in by_beginning {
         while game.clock().tick < fork.from {
-            if game.clock().tick.is_multiple_of(ASK_EVERY) && !goes_on(number) {
+            if game.clock().tick.is_multiple_of(ASK_EVERY) && !goes_on() {
                 return None;
             }
             game.tick();
         }
-        if !goes_on(number) {
+        if !goes_on() {
             return None;
         }
         // Both were started from one plan, so that the snapshot fits.
         if Snapshot::take(game.world_mut()).restore(other.world_mut()).is_ok() {
-            played.push(play_fork(&mut other, fork, &score_at));
+            played.push((place, play_fork(&mut other, fork, &score_at)));
         }
     }
-    played.sort_by_key(|fork: &PageFork| fork.ends_with(score_at(fork.ends_at())));
-    played.truncate(most);
-    played.sort_by_key(PageFork::begins_at);
-    Some(played)
+    played.sort_by_key(|(place, _)| *place);
+    Some(played.into_iter().map(|(_, fork)| fork).collect())
+}
+
+/// So many of them, those first that end with another score than the match has then; in the order of their beginnings.
+pub fn most_telling(
+    mut forks: Vec<PageFork>,
+    most: usize,
+    score_at: impl Fn(u64) -> [u32; 2],
+) -> Vec<PageFork> {
+    forks.sort_by_key(|fork| fork.ends_with(score_at(fork.ends_at())));
+    forks.truncate(most);
+    forks.sort_by_key(PageFork::begins_at);
+    forks
 }
 
 /// Ticks between two questions whether to go on.
@@ -119,7 +148,8 @@ fn play_fork(game: &mut Match, fork: &ForkPlan, score_at: impl Fn(u64) -> [u32; 
     let mut watch = MatchWatch::new(game.world_mut());
     let mut recorder = ForkRecorder::new(fork.title.clone());
     recorder.observe(&watch.look(game.world()));
-    game.world_mut().resource_mut::<Requests>().ask(fork.change.clone());
+    let script: Vec<_> = fork.script.iter().filter(|(tick, _)| *tick >= fork.from).cloned().collect();
+    game.world_mut().insert_resource(Script::new(&script));
     while game.clock().tick < fork.until && !game.is_over() {
         game.tick();
         recorder.observe(&watch.look(game.world()));
@@ -127,6 +157,7 @@ fn play_fork(game: &mut Match, fork: &ForkPlan, score_at: impl Fn(u64) -> [u32; 
     recorder.finish(|until, [home, away]| {
         let [was_home, was_away] = score_at(until);
         let changed = if [home, away] == [was_home, was_away] { "as" } else { "not as" };
-        format!("{home}:{away} at its end, {changed} in the match ({was_home}:{was_away})")
+        let finding = fork.finding.as_ref().map_or_else(String::new, |finding| format!("{finding}; "));
+        format!("{finding}{home}:{away} at its end, {changed} in the match ({was_home}:{was_away})")
     })
 }

@@ -18,4 +18,4 @@ mod svg;
 mod trails;
 
 pub use export_run::{ExportCounts, ExportError, ExportWishes, Exported, PageCounts, PageWish, export};
-pub use forks::{ForkPlan, MOST_FORKS};
+pub use forks::{ForkPlan, MOST_FORKS, PageForks};

@@ -14,6 +14,7 @@ use crate::data::DataError;
 use crate::game::requests::Request;
 use crate::game::{Match, MatchPlan};
 use crate::lab::all_cores::on_all_cores;
+use crate::lab::export::ForkPlan;
 use crate::lab::replay::{Recorder, Replay, ReplayHeader};
 use crate::state::Snapshot;
 
@@ -126,18 +127,34 @@ impl WhyPlan {
         Some(WhyFinding { candidate: candidate.clone(), difference, agree })
     }
 
-    /// Records the match with the change of a finding, up to some seconds after the tick in question.
+    /// The match with the change of a finding, up to some seconds after the tick in question.
+    pub fn fork(&self, finding: &WhyFinding) -> ForkPlan {
+        let WhyFinding { candidate, difference, agree } = finding;
+        let clock = Clock::new(TICK_HZ);
+        let agreement = match self.choice.seeds {
+            0 => String::new(),
+            seeds => format!(" ({agree} of {seeds} other dice agree)"),
+        };
+        ForkPlan {
+            title: format!("If {}", candidate.meddling),
+            finding: Some(format!("{difference}{agreement}")),
+            from: candidate.tick,
+            until: self.at + clock.ticks(AFTER) + 1,
+            script: candidate.applied(&self.plan.script, clock.dt),
+        }
+    }
+
+    /// Records the match with the change of a finding, as far as its [fork](WhyPlan::fork) goes.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn record(&self, finding: &WhyFinding, path: &Path) -> std::io::Result<()> {
+        let ForkPlan { from, until, script, .. } = self.fork(finding);
         let mut header = self.header.clone();
-        header.branched = Some(finding.candidate.tick);
+        header.branched = Some(from);
         let mut recorder = Recorder::create(path, header)?;
-        let clock = Clock::new(TICK_HZ);
-        let script = finding.candidate.applied(&self.plan.script, clock.dt);
         let mut game = Match::new(&MatchPlan { script, ..self.plan.clone() });
-        while game.clock().tick <= self.at + clock.ticks(AFTER) && !game.is_over() {
+        while game.clock().tick < until && !game.is_over() {
             game.tick();
             recorder.note(game.world_mut())?;
         }

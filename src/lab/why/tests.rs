@@ -1,5 +1,7 @@
 use std::path::Path;
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use bevy::prelude::*;
 
 use super::*;
@@ -8,10 +10,13 @@ use crate::comms::tcm::DataType;
 use crate::data::AssetFolder;
 use crate::game::Match;
 use crate::game::requests::{Request, Requests, RobotChange};
+use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
+use crate::lab::export::{ExportWishes, PageForks, PageWish, export};
 use crate::lab::replay::{Recorded, Recorder, Replay, ReplayHeader};
 use crate::lab::scenario::ScenarioRef;
 use crate::robot::RobotFailure;
+use crate::world::ball::Ball;
 
 const HOME_1: RobotId = RobotId::new(Team::Home, 1);
 const HOME_3: RobotId = RobotId::new(Team::Home, 3);
@@ -76,6 +81,56 @@ fn the_lost_acknowledgement_that_doubled_a_role_is_found() {
         game.tick();
     }
     assert_eq!(MatchStanding::of(game.world_mut()).doubled, []);
+}
+
+/// What the script of a page reads.
+fn page_data(page: &str) -> serde_json::Value {
+    let (_, rest) = page.split_once("type=\"application/octet-stream\">").unwrap();
+    let packed = BASE64_STANDARD.decode(rest.split_once("</script>").unwrap().0).unwrap();
+    serde_json::from_reader(flate2::read::GzDecoder::new(&packed[..])).unwrap()
+}
+
+#[test]
+fn a_page_plays_the_findings_as_other_futures_beside_the_match_in_their_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let replay = recorded(DOUBLED, &folder.path().join("a.replay"), 240, |_| {});
+    let plan =
+        WhyPlan::read(&replay, WhyChoice { at: Some(200), horizon: 4.0, seeds: 1, most: 1000 }).unwrap();
+    let report = plan.run(|_| {}, |_| true);
+    let findings = &report.findings[..2];
+    let forks = PageForks::Given(findings.iter().map(|finding| plan.fork(finding)).collect());
+    let wishes = ExportWishes { page: Some(PageWish { forks }), ..ExportWishes::default() };
+    let (match_plan, _) = replay.plans().unwrap();
+    let exported = export(&match_plan, Some(240), wishes, &mut |_| true).unwrap();
+    let page = page_data(&exported.page.unwrap());
+    let forks = page["forks"].as_array().unwrap();
+    assert_eq!((forks.len(), exported.counts.page.unwrap().forks), (2, 2));
+    for (fork, finding) in forks.iter().zip(findings) {
+        let told = |name: &str| fork[name].as_str().unwrap().to_owned();
+        assert_eq!(told("title"), format!("If {}", finding.candidate.meddling));
+        let found = format!("{} ({} of 1 other dice agree); ", finding.difference, finding.agree);
+        assert!(told("detail").starts_with(&found), "{}", told("detail"));
+        assert_eq!(
+            (fork["from"].as_u64(), fork["until"].as_u64()),
+            (Some(finding.candidate.tick), Some(240))
+        );
+        // It goes the way of the match that is recorded of the finding.
+        let path = folder.path().join("fork.replay");
+        plan.record(finding, &path).unwrap();
+        let mut game = Match::new(&Replay::read(&path).unwrap().plans().unwrap().0);
+        while game.clock().tick < 240 {
+            game.tick();
+        }
+        let ball =
+            game.world_mut().query_filtered::<&Pose, With<Ball>>().single(game.world()).unwrap().position;
+        let unit = page["exact"]["place"][0].as_f64().unwrap();
+        let end = |axis: usize| {
+            let steps = fork["ball"]["v"][axis].as_array().unwrap();
+            steps.iter().map(|step| step.as_f64().unwrap()).sum::<f64>() * unit
+        };
+        let off = [end(0) - f64::from(ball.x), end(1) - f64::from(ball.y)];
+        assert!(off.iter().all(|off| off.abs() < 0.006), "{off:?}");
+    }
 }
 
 #[test]
