@@ -151,6 +151,13 @@ impl StateKind {
         self.saved(world, entity).map(|saved| self.copies.text(&saved))
     }
 
+    /// Whether an entity, or the world if it is a resource, has something of this kind.
+    pub fn is_there(&self, world: &World, entity: Option<Entity>) -> bool {
+        let id = self.copies.id(world);
+        let owner = self.owner(world, entity).and_then(|owner| world.get_entity(owner).ok());
+        owner.zip(id).is_some_and(|(owner, id)| owner.contains_id(id))
+    }
+
     /// What an entity has of this kind, or the world if it is a resource.
     fn saved(&self, world: &World, entity: Option<Entity>) -> Option<SavedState> {
         let owner = self.owner(world, entity)?;

@@ -8,6 +8,7 @@ mod calibration;
 mod chart;
 mod communication;
 mod entity_names;
+mod fields;
 mod low_panel;
 mod matching;
 mod numbers;

@@ -1,13 +1,14 @@
-//! The whole world, entity by entity and each by its name, in a floating window behind key F12, with bevy-inspector-egui's view of
-//! their components. What of the match cannot be looked at field by field is told as text.
+//! The whole world, entity by entity and each by its name, in a floating window behind key F12: the state of the match field by field,
+//! and everything, also what the engine keeps, in bevy-inspector-egui's view by reflection.
 //!
-//! It is there to look. What is edited there happens outside any tick, so it is no part of what makes a match repeatable.
+//! It is there to look. What is edited by reflection happens outside any tick, so it is no part of what makes a match repeatable.
 
 use bevy::prelude::*;
 use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
 use super::entity_names::{NamedEntity, named_entities};
+use super::fields::ToldField;
 use crate::app::view::state::{Inspector, PanelSystems};
 use crate::state::{StateKind, StateRegister};
 
@@ -34,7 +35,6 @@ fn show_world(world: &mut World) -> Result {
     let context = context.get_mut();
     let height = (SHARE * context.content_rect().height()).max(LEAST);
     egui::Window::new("World (F12)").default_size([WIDTH, height]).open(&mut open).show(context, |ui| {
-        ui.weak("To look at. A match with values changed here cannot be repeated.");
         let mut search = world.resource::<WorldSearch>().0.clone();
         ui.horizontal(|ui| {
             ui.label("Find");
@@ -52,7 +52,8 @@ fn show_world(world: &mut World) -> Result {
 
 /// The entities of the match and of the window, then resources and assets.
 fn show_all(world: &mut World, search: &str, ui: &mut egui::Ui) {
-    let kinds = world.resource::<StateRegister>().kinds().to_vec();
+    let mut kinds = world.resource::<StateRegister>().kinds().to_vec();
+    kinds.sort_by_key(|kind| kind.name);
     let found = |named: &NamedEntity| named.name.to_lowercase().contains(&search.trim().to_lowercase());
     let all: Vec<NamedEntity> = named_entities(world).into_iter().filter(found).collect();
     for (title, of_match) in [("Match", true), ("Window", false)] {
@@ -62,38 +63,33 @@ fn show_all(world: &mut World, search: &str, ui: &mut egui::Ui) {
         header.default_open(of_match).show(ui, |ui| {
             for named in entities {
                 let header = egui::CollapsingHeader::new(&named.name).id_salt(named.entity);
-                header.show(ui, |ui| {
-                    bevy_inspector::ui_for_entity_with_children(world, named.entity, ui);
-                    if of_match {
-                        show_told(&kinds, world, Some(named.entity), ui);
-                    }
-                });
+                header.show(ui, |ui| show_entity(&kinds, world, named, ui));
             }
         });
     }
-    ui.collapsing("Resources of the match", |ui| show_told(&kinds, world, None, ui));
-    ui.collapsing("Resources", |ui| bevy_inspector::ui_for_resources(world, ui));
-    ui.collapsing("Assets", |ui| bevy_inspector::ui_for_all_assets(world, ui));
+    ui.collapsing("Resources of the match", |ui| show_state(&kinds, world, None, ui));
+    ui.collapsing("Resources by reflection", |ui| bevy_inspector::ui_for_resources(world, ui));
+    ui.collapsing("Assets by reflection", |ui| bevy_inspector::ui_for_all_assets(world, ui));
 }
 
-/// What an entity or the world has of the registered state of the match, as text: first what cannot be looked at field by field.
-fn show_told(kinds: &[StateKind], world: &World, entity: Option<Entity>, ui: &mut egui::Ui) {
-    let types = world.resource::<AppTypeRegistry>().read();
-    let is_reflected = |kind: &StateKind| {
-        let id = world.components().get_info(kind.id).and_then(|info| info.type_id());
-        id.is_some_and(|id| types.get(id).is_some())
-    };
-    let (by_fields, as_text): (Vec<&StateKind>, Vec<_>) = kinds.iter().partition(|kind| is_reflected(kind));
-    let tell = |ui: &mut egui::Ui, kind: &StateKind| {
-        if let Some(text) = kind.tell(world, entity) {
-            ui.collapsing(kind.name, |ui| ui.monospace(text));
-        }
-    };
-    as_text.into_iter().for_each(|kind| tell(ui, kind));
-    if by_fields.iter().any(|kind| kind.tell(world, entity).is_some()) {
-        // Fields leave out what is shared between robots and what is of no use to people.
-        ui.collapsing("The others as text, whole", |ui| {
-            by_fields.into_iter().for_each(|kind| tell(ui, kind))
+/// The state of an entity of the match, and its components by reflection.
+fn show_entity(kinds: &[StateKind], world: &mut World, named: &NamedEntity, ui: &mut egui::Ui) {
+    if !named.of_match {
+        return bevy_inspector::ui_for_entity_with_children(world, named.entity, ui);
+    }
+    show_state(kinds, world, Some(named.entity), ui);
+    ui.collapsing("All components by reflection", |ui| {
+        ui.weak("A match with values changed here cannot be repeated.");
+        bevy_inspector::ui_for_entity_with_children(world, named.entity, ui);
+    });
+}
+
+/// What an entity or the world has of the registered state of the match, field by field.
+fn show_state(kinds: &[StateKind], world: &World, entity: Option<Entity>, ui: &mut egui::Ui) {
+    for kind in kinds.iter().filter(|kind| kind.is_there(world, entity)) {
+        ui.collapsing(kind.name, |ui| {
+            let text = kind.tell(world, entity).unwrap_or_default();
+            ToldField::of(&text).show(ui);
         });
     }
 }

@@ -4,9 +4,11 @@ use std::collections::BTreeSet;
 
 use egui::{PointerButton, vec2};
 
-use super::{LaidOutWindow, egui};
+use super::{LaidOutFrame, LaidOutWindow, egui};
 use crate::app::view::state::{Action, Playback};
 use crate::comms::radio::InFlight;
+use crate::ids::RobotId;
+use crate::mind::teamwork::Booking;
 
 const SIZE: egui::Vec2 = vec2(1600.0, 1000.0);
 /// So that all components of a robot are in sight.
@@ -48,7 +50,7 @@ fn robots_messages_and_walls_have_names_and_a_click_shows_their_components() {
     window.click(SIZE, robot, PointerButton::Primary);
     let opened = window.show(SIZE, 1.0);
     // In the order of the alphabet; the others are below the edge.
-    for component in ["Activity", "DriveCommand", "Footing"] {
+    for component in ["Activity", "Contributions", "DriveCommand"] {
         assert!(opened.texts.iter().any(|(text, _)| text == component), "{component} in {:?}", opened.texts);
     }
 }
@@ -63,17 +65,31 @@ fn what_a_person_looks_for_is_found_by_a_part_of_its_name() {
     assert!(frame.shows(&message) && !frame.shows("trailer of home 1"), "{:?}", frame.texts);
 }
 
+/// A click on a text, in a window in which all components of a robot are in sight.
+fn open(window: &mut LaidOutWindow, text: &str) -> LaidOutFrame {
+    let frame = window.show(TALL, 1.0);
+    let at = frame.place(text).unwrap_or_else(|| panic!("no {text} in {:?}", frame.texts));
+    window.click(TALL, at, PointerButton::Primary);
+    window.show(TALL, 1.0)
+}
+
+/// Opens each component and looks for a field of it.
+fn assert_shows_fields(window: &mut LaidOutWindow, expected: &[(&str, &str)]) {
+    for (component, field) in expected {
+        let opened = open(window, component);
+        // A field that has parts is told with its type.
+        let is_named = |text: &str| text.split("  ").next() == Some(*field);
+        let is_there = opened.texts.iter().any(|(text, whole)| *whole && is_named(text));
+        assert!(is_there, "{field} of {component} in {:?}", opened.texts);
+        open(window, component);
+    }
+}
+
 #[test]
 fn what_robots_and_messages_are_made_of_is_shown_field_by_field() {
     let (mut window, message) = open_world();
-    let open = |window: &mut LaidOutWindow, text: &str| {
-        let frame = window.show(TALL, 1.0);
-        let at = frame.place(text).unwrap_or_else(|| panic!("no {text} in {:?}", frame.texts));
-        window.click(TALL, at, PointerButton::Primary);
-        window.show(TALL, 1.0)
-    };
     open(&mut window, "home 1");
-    for (component, field) in [
+    let fields = [
         ("Robot", "crashed"),
         ("Pose", "heading"),
         ("Percepts", "frame"),
@@ -82,15 +98,32 @@ fn what_robots_and_messages_are_made_of_is_shown_field_by_field() {
         ("Orders", "state"),
         ("Odometry", "turn_rate"),
         ("Contributions", "vectors"),
-    ] {
-        let opened = open(&mut window, component);
-        assert!(opened.shows(field), "{field} of {component} in {:?}", opened.texts);
-        open(&mut window, component);
-    }
+        ("Swapping", "held"),
+        ("Swapping", "attempt"),
+        ("TeamModel", "carrier"),
+        ("TcmClient", "queues"),
+    ];
+    assert_shows_fields(&mut window, &fields);
     open(&mut window, "home 1");
     open(&mut window, &message);
-    let opened = open(&mut window, "InFlight");
-    for field in ["due", "late", "packet"] {
-        assert!(opened.shows(field), "{field} in {:?}", opened.texts);
-    }
+    let fields = [("InFlight", "due"), ("InFlight", "late"), ("InFlight", "packet")];
+    assert_shows_fields(&mut window, &fields);
+}
+
+#[test]
+fn whom_a_robot_believes_to_have_booked_the_ball_is_shown_field_by_field() {
+    let mut window = LaidOutWindow::scenario("booking_one_goes");
+    let booked = |window: &mut LaidOutWindow| {
+        let world = window.app.world_mut();
+        let mut robots = world.query::<(&RobotId, &Booking)>();
+        robots.iter(world).find(|(_, booking)| booking.0.booking().is_some()).map(|(robot, _)| *robot)
+    };
+    let robot = (0..600).find_map(|_| {
+        window.frame(SIZE, 1.0);
+        booked(&mut window)
+    });
+    window.app.insert_resource(Playback { paused: true, ..Playback::default() });
+    window.app.world_mut().write_message(Action::World);
+    open(&mut window, &robot.expect("somebody books the ball").to_string());
+    assert_shows_fields(&mut window, &[("Booking", "booking"), ("Booking", "robot_booker")]);
 }
