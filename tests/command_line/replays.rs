@@ -95,6 +95,20 @@ fn a_recording_that_cannot_be_written_is_told_before_the_match() {
     assert!(text(&output.stderr).starts_with("/no/such/folder/a.replay: cannot be written: "));
 }
 
+/// A match of a person in the window, which a test of the window recorded in another build of the program.
+const OF_A_PERSON: &str = "tests/golden/person.replay";
+
+#[test]
+#[cfg_attr(not(target_arch = "x86_64"), ignore = "it was recorded with the vector units of x86-64")]
+fn a_match_of_a_person_that_another_build_has_recorded_is_played_again_tick_by_tick() {
+    let output = touchline(&["replay", OF_A_PERSON]);
+    let anew = "where play is meant to change: INSTA_UPDATE=always cargo test --lib a_match_of_a_person";
+    assert!(output.status.success(), "{}{anew}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(said.ends_with("600 of 600 ticks are as they were recorded\n"), "{said}");
+    assert!(fs::metadata(OF_A_PERSON).expect("it is there").len() < 30_000);
+}
+
 #[test]
 fn the_answer_to_why_is_also_a_page_with_other_futures() {
     let (folder, path) = folder();

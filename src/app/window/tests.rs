@@ -4,6 +4,7 @@ mod breakpoints;
 mod camera;
 mod laid_out;
 mod marks;
+mod person;
 mod rewind;
 mod silent_robots;
 mod states;

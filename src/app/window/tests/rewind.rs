@@ -62,7 +62,7 @@ impl LaidOutWindow {
         self.key(key_code, writes, ButtonState::Released);
     }
 
-    fn key(&mut self, key_code: KeyCode, writes: &str, state: ButtonState) {
+    pub(super) fn key(&mut self, key_code: KeyCode, writes: &str, state: ButtonState) {
         let logical_key = Key::Character(writes.into());
         let window = Entity::PLACEHOLDER;
         let key = KeyboardInput { key_code, logical_key, state, text: None, repeat: false, window };

@@ -120,7 +120,7 @@ impl LaidOutFrame {
 
 impl LaidOutWindow {
     /// A click on a text.
-    fn click_on(&mut self, text: &str) -> LaidOutFrame {
+    pub(super) fn click_on(&mut self, text: &str) -> LaidOutFrame {
         let frame = self.show(SIZE, 1.0);
         let at = frame.place(text).unwrap_or_else(|| panic!("no {text} in {:?}", frame.texts));
         self.click(SIZE, at, PointerButton::Primary)
@@ -145,7 +145,7 @@ impl LaidOutWindow {
     }
 
     /// Selects a robot with the key for the next one.
-    fn select(&mut self, robot: RobotId) {
+    pub(super) fn select(&mut self, robot: RobotId) {
         for _ in 0..8 {
             self.press(KeyCode::Tab, "");
             if self.app.world().resource::<crate::app::view::state::Selected>().0 == Some(robot) {
@@ -173,6 +173,16 @@ impl LaidOutWindow {
     fn last_tick(&self) -> u64 {
         let end = self.app.world().resource::<Expectations>().end().expect("it is a scenario");
         end.max(self.rewind().end())
+    }
+
+    /// Plays until there is a goal; the tick at which it is then, and that of the goal.
+    fn play_to_a_goal(&mut self) -> (u64, u64) {
+        while self.score() == [0, 0] {
+            let next = self.clock() + 20;
+            self.play_to(next);
+        }
+        let goal = self.tick_of(|what| matches!(what, MatchEventKind::Call(Decision::Goal { .. })));
+        (self.clock(), goal.expect("it is on the line"))
     }
 
     /// The tick of an event of the present branch.
@@ -278,16 +288,10 @@ const PUSH: &str = "assemblages.push_to_goal.WeightedSum[0][0][0]";
 fn a_person_goes_back_to_before_a_goal_and_prevents_it_by_one_weight() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = scenario(folder.path(), GOAL);
-    while window.score() == [0, 0] {
-        let next = window.clock() + 20;
-        window.play_to(next);
-    }
-    let end = window.clock();
+    let (end, goal) = window.play_to_a_goal();
     let frame = window.show(SIZE, 1.0);
     frame.assert_says("Goal for home, 1:0");
     // A click on the goal's mark goes there, and a drag to some seconds before.
-    let goal = window.tick_of(|what| matches!(what, MatchEventKind::Call(Decision::Goal { .. })));
-    let goal = goal.expect("it is on the line");
     let last = window.last_tick();
     window.drag(frame.place_of(goal, last), frame.place_of(goal, last));
     assert_eq!((window.clock(), window.score()), (goal, [0, 0]));
@@ -321,15 +325,9 @@ fn a_person_goes_back_to_before_a_goal_and_prevents_it_by_one_weight() {
 fn a_person_sees_which_lost_message_cost_the_goal() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = scenario(folder.path(), LOST_ANSWER);
-    while window.score() == [0, 0] {
-        let next = window.clock() + 20;
-        window.play_to(next);
-    }
-    let end = window.clock();
+    let (end, goal) = window.play_to_a_goal();
     window.show(SIZE, 1.0).assert_says("Goal for away, 0:1");
     // To the goal, and why.
-    let is_goal = |what: &MatchEventKind| matches!(what, MatchEventKind::Call(Decision::Goal { .. }));
-    let goal = window.tick_of(is_goal).expect("it is on the line");
     while window.clock() != goal {
         window.press(KeyCode::KeyJ, "j");
     }
