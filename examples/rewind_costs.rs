@@ -1,15 +1,20 @@
-//! What it costs that a match can go back: `cargo run --release --no-default-features --example rewind_costs [MATCH]`.
+//! What it costs that a match can go back and is recorded: `cargo run --release --no-default-features --example rewind_costs [MATCH]`.
 //!
 //! Plays a whole match twice, without and with its past kept, and prints the time and the memory that this takes; then goes to
-//! a hundred ticks of it, and from there a minute back each time.
+//! a hundred ticks of it, and from there a minute back each time; begins twenty branches; and records the match three times, while
+//! nobody drives and while a person moves a key or a lever in every tick.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use touchline::data::{AssetFolder, DataError};
+use touchline::game::requests::{RadioChange, Request, Requests};
 use touchline::game::{Choice, Match, MatchPlan};
-use touchline::lab::rewind::{BranchId, Keyframe, Rewind};
+use touchline::ids::{RobotId, Team};
+use touchline::lab::replay::{Recorded, Recorder, ReplayHeader};
+use touchline::lab::rewind::{BranchId, GhostMatch, Keyframe, Rewind};
 use touchline::rng::{Dice, Seed};
+use touchline::robot::pilot::Pilot;
 
 fn main() -> ExitCode {
     match measure(std::env::args().nth(1)) {
@@ -25,12 +30,17 @@ fn main() -> ExitCode {
 const COPIES: u32 = 200;
 /// Ticks to go to.
 const SEEKS: usize = 100;
+/// Branches to begin.
+const BRANCHES: usize = 20;
 /// Ticks of a minute.
 const MINUTE: u64 = 3600;
+/// Ticks of the match.
+const END: u64 = 72_000;
 
 fn measure(file: Option<String>) -> Result<(), DataError> {
     let assets = AssetFolder::find(None)?;
-    let plan = MatchPlan::read(&assets, &Choice { file, seed: 3, ..Choice::default() })?;
+    let choice = Choice { file, seed: 3, ..Choice::default() };
+    let plan = MatchPlan::read(&assets, &choice)?;
     let begun = Instant::now();
     let mut plain = Match::new(&plan);
     while !plain.is_over() {
@@ -57,7 +67,8 @@ fn measure(file: Option<String>) -> Result<(), DataError> {
     println!("    keyframes          {:7}", branch.keyframes().len());
     measure_copy(&mut game);
     measure_seeks(&mut game, &mut rewind);
-    Ok(())
+    measure_branches(&mut game, &mut rewind, &plan);
+    measure_recordings(&choice, &assets)
 }
 
 fn measure_copy(game: &mut Match) {
@@ -82,20 +93,93 @@ fn measure_seeks(game: &mut Match, rewind: &mut Rewind) {
         rewind.seek(game.world_mut(), tick, &mut |_| ()).expect("it can go back");
         begun.elapsed()
     };
-    let end = 72_000;
     let (mut far, mut minutes, mut steps) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..SEEKS {
-        let tick = MINUTE + (dice.uniform() * (end - MINUTE) as f32) as u64;
+        let tick = random_tick(&mut dice);
         far.push(seek(tick));
         minutes.push(seek(tick - MINUTE));
         steps.push(seek(tick - MINUTE - 1));
     }
-    for (what, mut times) in [("to any tick", far), ("a minute back", minutes), ("a tick back", steps)] {
+    tell([("to any tick", far), ("a minute back", minutes), ("a tick back", steps)]);
+}
+
+/// A tick that is not in the first minute.
+fn random_tick(dice: &mut Dice) -> u64 {
+    MINUTE + (dice.uniform() * (END - MINUTE) as f32) as u64
+}
+
+/// The times of each thing that was done: the one in the middle and the longest.
+fn tell<const N: usize>(measured: [(&str, Vec<Duration>); N]) {
+    for (what, mut times) in measured {
         times.sort_unstable();
         let [half, most] =
             [times[times.len() / 2], times[times.len() - 1]].map(|time| time.as_secs_f64() * 1e3);
         println!("{what:<22} {half:7.1} ms, at most {most:.1} ms");
     }
+}
+
+/// A branch begins with a tick in which something is asked for; the old future is then brought to its end in a world of its own, so
+/// that it can go on beside it.
+fn measure_branches(game: &mut Match, rewind: &mut Rewind, plan: &MatchPlan) {
+    let mut dice = Dice::new(Seed(2), "branches", None);
+    let (mut begins, mut beside) = (Vec::new(), Vec::new());
+    for _ in 0..BRANCHES {
+        let world = game.world_mut();
+        let begun = Instant::now();
+        rewind.seek(world, random_tick(&mut dice), &mut |_| ()).expect("it can go back");
+        world.resource_mut::<Requests>().ask(Request::Radio(RadioChange::Jam(true)));
+        rewind.play(world, |world| world.clear_trackers());
+        begins.push(begun.elapsed());
+        let begun = Instant::now();
+        GhostMatch::new(rewind, plan, BranchId(0)).expect("it is the same match");
+        beside.push(begun.elapsed());
+        rewind.switch(world, BranchId(0), MINUTE, &mut |_| ()).expect("it can go back");
+    }
+    tell([("a branch at any tick", begins), ("the old one beside it", beside)]);
+}
+
+/// Which levers a person holds after a tick, if anybody drives.
+type Hands = fn(&mut Dice) -> Option<Pilot>;
+
+/// Keys are down or up; a lever stands anywhere among a hundred points.
+const DRIVERS: [(&str, Hands); 3] = [
+    ("nobody drives", |_| None),
+    ("another key a tick", |dice| Some(levers(dice, 1.0))),
+    ("another lever a tick", |dice| Some(levers(dice, 50.0))),
+];
+
+/// Levers that stand at one of so many points on either side.
+fn levers(dice: &mut Dice, points: f32) -> Pilot {
+    let mut lever = || ((dice.uniform() * (2.0 * points + 1.0)).floor() - points) / points;
+    Pilot { throttle: lever(), turn: lever(), ..Pilot::default() }
+}
+
+fn measure_recordings(choice: &Choice, assets: &AssetFolder) -> Result<(), DataError> {
+    let folder = tempfile::tempdir().expect("there is a place for temporary files");
+    let path = folder.path().join("a.replay");
+    let robot = RobotId::new(Team::Home, 1);
+    for (who, hands) in DRIVERS {
+        let (header, (plan, _)) = ReplayHeader::of(Recorded::Match(choice.clone()), assets)?;
+        let mut recorder = Recorder::create(&path, header).expect("the folder is there");
+        let mut dice = Dice::new(Seed(3), "hands", None);
+        let (mut game, mut is_driven) = (Match::new(&plan), false);
+        while !game.is_over() {
+            let mut requests = game.world_mut().resource_mut::<Requests>();
+            if let Some(pilot) = hands(&mut dice) {
+                if !is_driven {
+                    requests.ask(Request::TakeOver(robot));
+                    is_driven = true;
+                }
+                requests.ask(Request::Steer { robot, pilot });
+            }
+            game.tick();
+            recorder.note(game.world_mut()).expect("there is room for it");
+        }
+        recorder.finish().expect("there is room for it");
+        let bytes = std::fs::metadata(&path).expect("it is there").len();
+        println!("recorded, {who:<20} {:.0} kB", bytes as f64 / 1e3);
+    }
+    Ok(())
 }
 
 /// Bytes of memory that this process holds; not a number where the system does not tell.
