@@ -7,6 +7,7 @@ mod export;
 mod fit_eyes;
 #[cfg(unix)]
 mod interrupt;
+mod league;
 mod options;
 mod output;
 mod replays;

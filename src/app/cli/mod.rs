@@ -11,6 +11,7 @@ mod fit_eyes;
 mod heavy;
 mod interrupt;
 mod kinds;
+mod league;
 mod merge;
 mod options;
 mod picture_file;
@@ -68,6 +69,9 @@ enum CliCommand {
     /// Play the matches of an experiment on all cores, and write what was measured as tables.
     #[command(after_help = EXIT_CODES)]
     Experiment(experiment::ExperimentCommand),
+    /// Play every strategy against every other on all cores, and print a table with ratings.
+    #[command(after_help = EXIT_CODES)]
+    League(league::LeagueCommand),
     /// Put the parts of an experiment together that were played on several machines.
     #[command(after_help = EXIT_CODES)]
     Merge(merge::MergeCommand),
@@ -125,6 +129,7 @@ impl Cli {
             Some(CliCommand::Why(why)) => why.run(&mut out),
             Some(CliCommand::Duel(duel)) => duel.run(&assets, &mut out),
             Some(CliCommand::Experiment(experiment)) => experiment.run(&assets, &mut out),
+            Some(CliCommand::League(league)) => league.run(&assets, &mut out),
             Some(CliCommand::Merge(merge)) => merge.run(&assets, &mut out),
             Some(CliCommand::Tune(tune)) => tune.run(&assets, &mut out),
             Some(CliCommand::Report(report)) => report.run(&assets, &mut out),

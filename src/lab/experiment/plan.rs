@@ -5,7 +5,7 @@ use std::path::Path;
 use super::file::ExperimentFile;
 use super::row::{ExperimentRow, RowKey};
 use super::treatment::{PlacedChange, TreatmentPlan};
-use crate::data::{AssetFolder, AssetKind, DataError, Field};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 
 /// An experiment that can be played. Its matches are numbered seed by seed, so that the first rows of a table hold as many
 /// matches of one treatment as of another.
@@ -34,7 +34,14 @@ impl ExperimentPlan {
     /// # Errors
     /// As there.
     pub fn read_file(assets: &AssetFolder, path: &Path) -> Result<ExperimentPlan, DataError> {
-        let source = assets.read(path)?;
+        ExperimentPlan::of_source(assets, &assets.read(path)?)
+    }
+
+    /// As [`ExperimentPlan::read`], from a text.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn of_source(assets: &AssetFolder, source: &Source) -> Result<ExperimentPlan, DataError> {
         let file: ExperimentFile = source.parse_sound()?;
         for (place, factor) in file.factors.iter().enumerate() {
             if super::row::is_column(&factor.name) {
@@ -44,7 +51,7 @@ impl ExperimentPlan {
         }
         let levels: Vec<Vec<usize>> = (0..file.treatments()).map(|number| file.places(number)).collect();
         let treatments =
-            levels.iter().map(|levels| TreatmentPlan::read(assets, &source, &changes(&file, levels)));
+            levels.iter().map(|levels| TreatmentPlan::read(assets, source, &changes(&file, levels)));
         let treatments = treatments.collect::<Result<Vec<_>, _>>()?;
         Ok(ExperimentPlan { text: source.text.to_string(), file, treatments, levels })
     }

@@ -1,5 +1,7 @@
 //! A report before it is a page or Markdown.
 
+use std::fmt::{self, Display, Formatter};
+
 /// A title and what stands under it. All texts are plain, as they are to be read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportDocument {
@@ -39,6 +41,23 @@ pub struct ReportTable {
     pub words: usize,
 }
 
+/// In columns, as on a terminal.
+impl Display for ReportTable {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let lines = || [&self.head].into_iter().chain(&self.rows);
+        let width =
+            |column: usize| lines().map(|cells| cells[column].chars().count()).max().unwrap_or_default();
+        let widths: Vec<usize> = (0..self.head.len()).map(width).collect();
+        for cells in lines() {
+            let cells = cells.iter().zip(&widths).enumerate().map(|(column, (cell, width))| {
+                if column < self.words { format!("{cell:width$}") } else { format!("{cell:>width$}") }
+            });
+            writeln!(f, "{}", cells.collect::<Vec<_>>().join("  ").trim_end())?;
+        }
+        Ok(())
+    }
+}
+
 /// A drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReportPlot {
@@ -51,4 +70,16 @@ pub struct ReportPlot {
 /// Text of its own for each of some words.
 pub(super) fn cells<const N: usize>(words: [&str; N]) -> Vec<String> {
     words.map(str::to_owned).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stand_to_the_left_and_numbers_to_the_right() {
+        let rows = vec![cells(["a", "10"]), cells(["longer", "9"])];
+        let table = ReportTable { head: cells(["team", "goals"]), rows, words: 1 };
+        assert_eq!(table.to_string(), "team    goals\na          10\nlonger      9\n");
+    }
 }

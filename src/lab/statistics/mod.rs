@@ -20,7 +20,7 @@ mod tests;
 mod until_width;
 
 pub use average::{SampleMoments, mean, mean_interval, median};
-pub use bootstrap::{RESAMPLES, bca_interval, resampled};
+pub use bootstrap::{RESAMPLES, bca_interval, percentile_interval, resampled};
 pub use compare::{PairedDifference, compare_pairs};
 pub use effect::{cohens_d_z, rank_biserial};
 pub use equivalence::{Equivalence, equivalence};

@@ -1,19 +1,19 @@
 //! `touchline experiment`: the matches of a design, on all cores, as tables.
 
 mod folder;
+mod matches;
 mod shard;
 
-use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 pub(super) use self::folder::{ResultsFolder, check_design};
+pub(super) use self::matches::{play_wanted, quietly};
 use self::shard::Shard;
 use super::ending::{CommandError, Ending, print_json, tell};
 use super::interrupt::Interrupt;
-use super::progress::progress_bar;
 use crate::data::{AssetFolder, DataError};
 use crate::lab::experiment::{ExperimentPlan, ExperimentRow, ExperimentSummary, Metric};
 
@@ -75,27 +75,7 @@ impl ExperimentCommand {
         interrupt: &Interrupt,
         out: &mut impl Write,
     ) -> Result<(), CommandError> {
-        let mut rows = folder.begin(plan)?;
-        let bar = progress_bar(0, "{msg}: {bar:40} {pos} of {len} matches, {eta} left");
-        bar.set_message(plan.file.name.clone());
-        let mut table = folder.table(plan)?;
-        let mut missing = self.missing(plan, &rows);
-        while !missing.is_empty() && !interrupt.is_asked() {
-            bar.inc_length(missing.len() as u64);
-            quietly(|| {
-                plan.run(missing.iter().copied(), |row| {
-                    table.add(&row).map_err(CommandError::file(&folder.csv()))?;
-                    rows.push(row);
-                    bar.inc(1);
-                    Ok::<_, CommandError>(!interrupt.is_asked())
-                })
-            })?;
-            missing = self.missing(plan, &rows);
-        }
-        bar.finish_and_clear();
-        drop(table);
-        rows.sort_by_key(|row| row.key.row);
-        folder.finish(plan, &rows)?;
+        let rows = play_wanted((plan, folder), |rows| self.wanted(plan, rows), interrupt)?;
         let summary = ExperimentSummary::of(plan, &rows);
         if self.json {
             print_json(&summary, out)?;
@@ -106,13 +86,11 @@ impl ExperimentCommand {
         Ok(())
     }
 
-    /// The rows that are wanted and not there.
-    fn missing(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Vec<u64> {
-        let known: BTreeSet<u64> = rows.iter().map(|row| row.key.row).collect();
+    /// The rows that are wanted, as far as those that are there tell.
+    fn wanted(&self, plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Vec<u64> {
         let seeds = plan.wanted_seeds(rows).min(self.seeds.unwrap_or(u32::MAX));
-        let wanted = u64::from(seeds) * plan.in_block();
-        let mine = |row: &u64| self.shard.is_none_or(|shard| shard.has(plan, *row)) && !known.contains(row);
-        (0..wanted).filter(mine).collect()
+        let mine = |row: &u64| self.shard.is_none_or(|shard| shard.has(plan, *row));
+        (0..u64::from(seeds) * plan.in_block()).filter(mine).collect()
     }
 }
 
@@ -120,15 +98,6 @@ impl ExperimentCommand {
 pub(super) fn folder_beside(file: &str, ending: &str) -> PathBuf {
     let stem = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
     PathBuf::from(format!("{}.{ending}", stem.unwrap_or_default()))
-}
-
-/// A match that breaks off is a row that says so, and not a report of the program's fault on the way.
-pub(super) fn quietly<T>(run: impl FnOnce() -> T) -> T {
-    let usual = std::panic::take_hook();
-    std::panic::set_hook(Box::new(|_| {}));
-    let done = run();
-    std::panic::set_hook(usual);
-    done
 }
 
 fn play_row(
