@@ -73,6 +73,11 @@ pub(super) fn padded(values: impl Iterator<Item = f64>) -> Option<Range<f64>> {
     Some(low - pad..high + pad)
 }
 
+/// A number along an axis, without the dust of sums and a negative zero.
+fn tick(value: f64) -> String {
+    ((value * 1e6).round() / 1e6 + 0.0).to_string()
+}
+
 /// Letters that stand so to a point.
 pub(super) fn letters(horizontal: HPos, colour: RGBColor) -> TextStyle<'static> {
     // The backend divides the size by this number.
@@ -112,8 +117,9 @@ pub(super) fn rows_with_names<'text>(
         .x_label_area_size(UNDER)
         .y_label_area_size(room)
         .build_cartesian_2d(values.clone(), rows)?;
+    let number = |value: &f64| tick(*value);
     let mut mesh = frame.configure_mesh();
-    mesh.disable_y_mesh().y_labels(0).x_labels(7).x_desc(described);
+    mesh.x_label_formatter(&number).disable_y_mesh().y_labels(0).x_labels(7).x_desc(described);
     mesh.bold_line_style(GRID).light_line_style(TRANSPARENT).axis_style(INK);
     mesh.label_style(letters(HPos::Center, INK)).axis_desc_style(letters(HPos::Center, INK)).draw()?;
     let area = frame.plotting_area().clone();
@@ -139,7 +145,9 @@ pub(super) fn axes<'text>(
         .x_label_area_size(UNDER)
         .y_label_area_size(UNDER + 16)
         .build_cartesian_2d(x.clone(), y.clone())?;
+    let number = |value: &f64| tick(*value);
     let mut mesh = frame.configure_mesh();
+    mesh.x_label_formatter(&number).y_label_formatter(&number);
     mesh.x_labels(8).y_labels(7).x_desc(x_described).y_desc(y_described);
     mesh.bold_line_style(GRID).light_line_style(TRANSPARENT).axis_style(INK);
     mesh.label_style(letters(HPos::Center, INK)).axis_desc_style(letters(HPos::Center, INK)).draw()?;
@@ -169,6 +177,11 @@ mod tests {
         assert_eq!(padded([4.0, 4.0].into_iter()), Some(2.0..6.0));
         assert_eq!(padded([0.0].into_iter()), Some(-0.5..0.5));
         assert_eq!(padded([f64::INFINITY].into_iter()), None);
+    }
+
+    #[test]
+    fn numbers_along_an_axis_are_short() {
+        assert_eq!([0.1 + 0.2, -1e-17, 15.0, -0.05].map(tick), ["0.3", "0", "15", "-0.05"]);
     }
 
     #[test]
