@@ -8,8 +8,9 @@ use touchline::geometry::{Pose, angle};
 use touchline::ids::{RobotId, Team};
 use touchline::rng::{Dice, Seed};
 use touchline::robot::RobotKind;
-use touchline::vision::{CameraSettings, Gaze, Optics, Resolution};
+use touchline::vision::{CameraFlaws, CameraSettings, Gaze, Optics, Resolution};
 use touchline::world::sense::picture::{Canvas, Hall, Light, Lighting, Moment, Shot};
+use touchline::world::sense::sway::Sway;
 
 const NOSE: Optics =
     Optics { width: 208, height: 160, field_of_view: 56.9, mount: 0.19, tilt: 10.0, nod: 40.0 };
@@ -51,7 +52,9 @@ fn pictures(criterion: &mut Criterion) {
                 robot: RobotId::new(Team::Home, 2),
                 from,
                 gaze: Gaze { pan: 0.0, tilt: 0.17 },
+                sway: Sway { roll: 0.02, ..Sway::default() },
                 optics: NOSE,
+                flaws: CameraFlaws { distortion: (-0.147, 0.385), read_out: 0.033, ..CameraFlaws::default() },
                 settings: CameraSettings { resolution, ..CameraSettings::default() },
                 turn_rate,
                 hides_ball: false,

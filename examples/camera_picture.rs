@@ -17,6 +17,7 @@ use touchline::robot::{Head, OffPitch, Robot, Trailer};
 use touchline::vision::{CameraCalibration, Gaze, Image};
 use touchline::world::ball::Ball;
 use touchline::world::sense::picture::{Canvas, Hall, Light, Lighting, Moment, Shot};
+use touchline::world::sense::sway::{MountError, Stride, Sway};
 
 fn main() -> ExitCode {
     match write_pictures(std::env::args().skip(1).collect()) {
@@ -44,10 +45,13 @@ fn write_pictures(words: Vec<String>) -> Result<(), Box<dyn std::error::Error>> 
     let mut canvas = Canvas::default();
     for (robot, from, pan, walks) in watching {
         let camera = assets.file(AssetKind::Camera, if walks { "aibo_ers7" } else { "cye_2001" });
-        let CameraCalibration { optics, settings, .. } = Source::read(camera)?.parse()?;
+        let CameraCalibration { optics, flaws, settings, .. } = Source::read(camera)?.parse()?;
         let gaze = Gaze { pan, tilt: optics.tilt.to_radians() };
-        let shot = Shot { robot, from, gaze, optics, settings, turn_rate: 0.0, hides_ball: false };
         let mut dice = Dice::new(Seed(plan.seed), "pictures", Some(robot));
+        let stride = Stride { phase: dice.uniform(), effort: 0.5 };
+        let sway = Sway::of(&flaws, stride, MountError::drawn(&flaws.play, &mut dice), pan);
+        let (turn_rate, hides_ball) = (0.0, false);
+        let shot = Shot { robot, from, gaze, sway, optics, flaws, settings, turn_rate, hides_ball };
         canvas.draw(&hall, &moment, &shot, &Light::new(Lighting::default()), &mut dice);
         let path = Path::new(&folder).join(format!("{}_{}.ppm", robot.team, robot.number));
         write_ppm(&path, canvas.image())?;

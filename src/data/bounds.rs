@@ -51,6 +51,8 @@ impl Bound {
     pub const ANGLE: Bound = Bound::up_to(360.0, "°");
     /// From edge to edge of a picture.
     pub const VIEW: Bound = Bound { least: 10.0, most: 150.0, unit: "°" };
+    /// By how much something sways or is held askew.
+    pub const SWAY: Bound = Bound::up_to(20.0, "°");
     /// By how much a camera looks down.
     pub const NOD: Bound = Bound { least: -80.0, most: 80.0, unit: "°" };
     /// An angle with direction.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::colours::ColourTable;
+use super::flaws::CameraFlaws;
 use super::optics::Optics;
 use super::settings::CameraSettings;
 use crate::data::{Fault, Validate};
@@ -15,6 +16,9 @@ pub struct CameraCalibration {
     pub name: String,
     /// How it is built; not changed while it runs.
     pub optics: Optics,
+    /// What of it the robot does not allow for; not changed while it runs.
+    #[serde(default)]
+    pub flaws: CameraFlaws,
     /// How it is set.
     pub settings: CameraSettings,
     /// What colours look like to it, set like that.
@@ -24,6 +28,7 @@ pub struct CameraCalibration {
 impl Validate for CameraCalibration {
     fn validate(&self) -> Result<(), Fault> {
         self.optics.validate_as("optics")?;
+        self.flaws.validate_as("flaws")?;
         self.settings.validate_as("settings")?;
         self.colours.validate_as("colours")
     }

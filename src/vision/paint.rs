@@ -16,6 +16,18 @@ pub const FENCE_GREY: Rgb = [82, 82, 84];
 /// What is behind walls and fences.
 pub const HALL_GREY: Rgb = [112, 110, 106];
 
+/// What people around a pitch wear and are: dark cloth, jeans, skin, and shirts in colours that are like those of a pitch.
+pub const CLOTHES: [Rgb; 8] = [
+    [38, 38, 42],
+    [58, 72, 104],
+    [196, 150, 122],
+    [188, 44, 48],
+    [214, 124, 52],
+    [214, 196, 84],
+    [92, 148, 196],
+    [200, 104, 148],
+];
+
 /// Of a fence, m.
 pub const FENCE_HEIGHT: f32 = 0.3;
 /// Of a beacon, m.

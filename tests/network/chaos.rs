@@ -20,7 +20,9 @@ use touchline::ids::{RobotId, Team};
 use touchline::rng::{Dice, Seed};
 use touchline::robot::pilot::Pilot;
 use touchline::strategy::Strategies;
-use touchline::vision::{CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Optics};
+use touchline::vision::{
+    CameraCalibration, CameraFlaws, CameraSettings, ColourBox, ColourClass, ColourTable, Optics,
+};
 use touchline::world::referee::Phase;
 
 use super::recorded::{again, log_of};
@@ -253,7 +255,7 @@ fn a_robot_is_driven_stops_when_the_link_breaks_and_goes_back_to_its_strategy() 
 fn calibration() -> CameraCalibration {
     let optics = Optics { width: 208, height: 160, field_of_view: 56.9, mount: 0.19, tilt: 10.0, nod: 40.0 };
     let (settings, colours) = (CameraSettings::default(), ColourTable::default());
-    CameraCalibration { name: "hall".into(), optics, settings, colours }
+    CameraCalibration { name: "hall".into(), optics, flaws: CameraFlaws::default(), settings, colours }
 }
 
 #[test]

@@ -6,12 +6,17 @@ use bevy::prelude::Vec2;
 
 use crate::geometry::{Pose, Sighting, unit, wrap_angle};
 use crate::rng::Dice;
+use crate::world::sense::sway::Stride;
 
 /// Where everything is.
 #[derive(Clone, Debug)]
 pub(super) struct RandomMoment {
-    /// The robot whose camera it is.
+    /// The robot whose camera it is. It heads where the camera looks.
     pub own: Pose,
+    /// How far its body heads to the right of where the camera looks, rad.
+    pub head: f32,
+    /// How it walks.
+    pub stride: Stride,
     /// The other robots.
     pub others: Vec<Pose>,
     pub ball: Vec2,
@@ -32,6 +37,8 @@ pub(super) struct Bounds {
     pub others: usize,
     /// Around each robot, m.
     pub room: f32,
+    /// How far heads turn to either side, rad.
+    pub pan: f32,
 }
 
 /// Nearest ball, m: it touches a robot.
@@ -46,8 +53,8 @@ const TURNS: f32 = 0.3;
 const DRAWS: usize = 200;
 
 impl RandomMoment {
-    /// Draws a moment: the robot anywhere, the ball mostly before it, at any distance for which the pitch has room, and others all over
-    /// the pitch.
+    /// Draws a moment: the robot anywhere, at any part of a stride and of any speed up to its full one, the ball mostly before it, at any
+    /// distance for which the pitch has room, and others all over the pitch.
     pub fn draw(bounds: &Bounds, dice: &mut Dice) -> RandomMoment {
         let own = Pose { position: anywhere(bounds, dice), heading: (dice.uniform() - 0.5) * TAU };
         let before = dice.chance(BEFORE);
@@ -69,7 +76,9 @@ impl RandomMoment {
             let heading = (dice.uniform() - 0.5) * TAU;
             others.extend(place.map(|position| Pose { position, heading }));
         }
-        RandomMoment { own, others, ball, turn_rate: dice.normal(TURNS) }
+        let head = (2.0 * dice.uniform() - 1.0) * bounds.pan;
+        let stride = Stride { phase: dice.uniform(), effort: dice.uniform() };
+        RandomMoment { own, head, stride, others, ball, turn_rate: dice.normal(TURNS) }
     }
 }
 
@@ -89,8 +98,14 @@ mod tests {
     use super::*;
     use crate::rng::Seed;
 
-    const BOUNDS: Bounds =
-        Bounds { half: Vec2::new(2.25, 1.5), field_of_view: 1.0, farthest: 3.5, others: 7, room: 0.2 };
+    const BOUNDS: Bounds = Bounds {
+        half: Vec2::new(2.25, 1.5),
+        field_of_view: 1.0,
+        farthest: 3.5,
+        others: 7,
+        room: 0.2,
+        pan: 1.5,
+    };
 
     #[test]
     fn everything_is_on_the_pitch_and_robots_have_room() {

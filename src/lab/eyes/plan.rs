@@ -2,7 +2,7 @@
 
 use super::moments::{Bounds, RandomMoment};
 use super::readings::{OtherRobot, Readings};
-use super::report::{EyesReport, numbers};
+use super::report::{EyesReport, numbers, range_bias};
 use crate::data::{AssetFolder, AssetKind, DataError, Source};
 use crate::game::{Choice, MatchPlan};
 use crate::geometry::{Pose, Sighting, wrap_angle};
@@ -11,6 +11,7 @@ use crate::rng::{Dice, Seed};
 use crate::robot::{Camera, RobotKind};
 use crate::vision::{CameraCalibration, ColourLookup, Gaze, KnownObjects, Recognised, Segmenter, recognise};
 use crate::world::sense::picture::{Canvas, Hall, Light, Moment, Shot};
+use crate::world::sense::sway::{MountError, Sway};
 use crate::world::sense::{Blob, nod, robot_paint, visible_share};
 
 /// What a person chooses.
@@ -79,7 +80,12 @@ impl EyesPlan {
             }
         }
         let numbers = numbers(&self.fast, &studio.readings, self.farthest());
-        EyesReport::new(numbers, self.names(), (views, self.choice.seed), views < self.choice.views)
+        EyesReport::new(
+            (numbers, range_bias(&studio.readings)),
+            self.names(),
+            (views, self.choice.seed),
+            views < self.choice.views,
+        )
     }
 
     /// Of the model and of the camera.
@@ -100,8 +106,13 @@ struct Studio<'a> {
     moment: Moment,
     bounds: Bounds,
     dice: Dice,
+    /// For the light and for how the camera is held.
+    hall_dice: Dice,
     readings: Readings,
 }
+
+/// Light has drifted anywhere after so many seconds.
+const AGES: f32 = 1e9;
 
 /// The robot whose camera it is.
 const OWN: RobotId = RobotId::new(Team::Home, 0);
@@ -127,8 +138,10 @@ impl Studio<'_> {
                 farthest: plan.farthest(),
                 others: players - 1,
                 room: game.team(Team::Home).kind.reach().max(game.team(Team::Away).kind.reach()),
+                pan: plan.kind(OWN.team).neck.map_or(0.0, |neck| neck.pan.to_radians()),
             },
             dice: Dice::new(Seed(plan.choice.seed), "views", None),
+            hall_dice: Dice::new(Seed(plan.choice.seed), "views of a hall", None),
             readings: Readings::default(),
         }
     }
@@ -136,16 +149,9 @@ impl Studio<'_> {
     /// Draws one picture and takes note of what it gave.
     fn look(&mut self) {
         let plan = self.plan;
-        let drawn = RandomMoment::draw(&self.bounds, &mut self.dice);
-        let robots: Vec<(RobotId, Pose)> = self.others().zip(drawn.others.iter().copied()).collect();
-        self.moment.clear();
-        self.moment.ball = Some(drawn.ball);
-        self.moment.add(OWN, plan.kind(OWN.team), drawn.own, 0.0, Some(drawn.own));
-        for &(id, pose) in &robots {
-            self.moment.add(id, plan.kind(id.team), pose, 0.0, Some(pose));
-        }
+        let (drawn, robots) = self.place();
         let ball = Sighting::of(drawn.ball, drawn.own);
-        let recognised = self.recognise(&drawn, ball);
+        let recognised = self.recognise(&drawn);
         let blobs: Vec<Blob> = robots.iter().map(|(id, pose)| self.blob(*id, *pose, drawn.own)).collect();
         let trailers: Vec<(RobotId, Blob)> = robots
             .iter()
@@ -154,7 +160,8 @@ impl Studio<'_> {
         let view = plan.fast.field_of_view;
         let solid = || blobs.iter().copied().chain(trailers.iter().map(|(_, blob)| *blob));
         let own_ball = Blob::of(drawn.ball, plan.plan.ball.radius, drawn.own);
-        self.readings.note_ball(ball, visible_share(own_ball, solid(), view), recognised.ball);
+        let covers = (ball, own_ball.half_angle);
+        self.readings.note_ball(covers, visible_share(own_ball, solid(), view), recognised.ball);
         let others: Vec<OtherRobot> = (robots.iter().zip(&blobs).enumerate())
             .map(|(index, ((id, pose), blob))| {
                 let bodies = blobs.iter().enumerate().filter(|(other, _)| *other != index);
@@ -167,19 +174,39 @@ impl Studio<'_> {
         self.readings.note_robots(&others, &recognised.robots);
     }
 
-    fn recognise(&mut self, drawn: &RandomMoment, ball: Sighting) -> Recognised {
+    /// Puts everything somewhere; the robots but for the one that looks on.
+    fn place(&mut self) -> (RandomMoment, Vec<(RobotId, Pose)>) {
+        let plan = self.plan;
+        let drawn = RandomMoment::draw(&self.bounds, &mut self.dice);
+        let robots: Vec<(RobotId, Pose)> = self.others().zip(drawn.others.iter().copied()).collect();
+        self.moment.clear();
+        self.moment.ball = Some(drawn.ball);
+        self.moment.add(OWN, plan.kind(OWN.team), drawn.own, 0.0, Some(drawn.own));
+        for &(id, pose) in &robots {
+            self.moment.add(id, plan.kind(id.team), pose, 0.0, Some(pose));
+        }
+        (drawn, robots)
+    }
+
+    /// Takes a picture and works it out.
+    fn recognise(&mut self, drawn: &RandomMoment) -> Recognised {
         let camera = &self.plan.calibration;
+        let ball = Sighting::of(drawn.ball, drawn.own);
         let is_ahead = wrap_angle(ball.bearing).abs() < self.bounds.field_of_view / 2.0;
+        let mount = MountError::drawn(&camera.flaws.play, &mut self.hall_dice);
+        let light = self.light.drifted(AGES, &mut self.hall_dice);
         let shot = Shot {
             robot: OWN,
             from: drawn.own,
             gaze: Gaze { pan: 0.0, tilt: nod(&camera.optics, Some(ball).filter(|_| is_ahead)) },
+            sway: Sway::of(&camera.flaws, drawn.stride, mount, drawn.head),
             optics: camera.optics,
+            flaws: camera.flaws,
             settings: camera.settings,
             turn_rate: drawn.turn_rate,
             hides_ball: false,
         };
-        self.canvas.draw(&self.hall, &self.moment, &shot, &self.light, &mut self.dice);
+        self.canvas.draw(&self.hall, &self.moment, &shot, &light, &mut self.dice);
         let segmented = self.segmenter.segment(self.canvas.image(), &self.lookup);
         recognise(segmented, &camera.optics, shot.gaze, &self.known)
     }

@@ -33,35 +33,44 @@ pub(super) struct OtherRobot {
     pub visible: f32,
 }
 
-/// A sighting farther from the truth than this is of something else: rad, and a share of the range beside a floor in metres.
+/// A sighting farther from a thing than this is of something else: rad beside it, and a share of the range beside a floor in metres.
 const SAME: (f32, f32, f32) = (0.17, 0.6, 0.2);
 
-fn is_of(seen: Sighting, truth: Sighting) -> bool {
+/// Whether a sighting is of a thing that covers this half of an angle, rad.
+fn is_of(seen: Sighting, truth: Sighting, half_angle: f32) -> bool {
     let (angle, share, floor) = SAME;
-    wrap_angle(seen.bearing - truth.bearing).abs() < angle
+    wrap_angle(seen.bearing - truth.bearing).abs() < angle + half_angle
         && (seen.range - truth.range).abs() < floor + share * truth.range
 }
 
 impl Readings {
-    /// Takes note of where the ball was and where it was seen.
-    pub fn note_ball(&mut self, truth: Sighting, visible: f32, seen: Option<Sighting>) {
-        let own = seen.filter(|seen| is_of(*seen, truth));
+    /// Takes note of where the ball was, which half of an angle it covers (rad), how much of it was to be seen, and where it was seen.
+    pub fn note_ball(&mut self, (truth, half_angle): (Sighting, f32), visible: f32, seen: Option<Sighting>) {
+        let own = seen.filter(|seen| is_of(*seen, truth, half_angle));
         self.balls.push(ComparedSighting { truth, visible, seen: own });
         if own.is_none() {
             self.phantoms.push(seen.is_some());
         }
     }
 
-    /// Takes note of where the other robots were and which were seen. Each sighting is of the nearest robot that is not taken yet.
+    /// Takes note of where the other robots were and which were seen. Each sighting is of the nearest robot that is not taken yet, of its
+    /// own team if there is one.
     pub fn note_robots(&mut self, robots: &[OtherRobot], seen: &[(Team, Sighting)]) {
         let mut matched: Vec<Option<(Team, Sighting)>> = vec![None; robots.len()];
-        for &(team, sighting) in seen {
-            let free = robots.iter().enumerate().filter(|(index, robot)| {
-                matched[*index].is_none() && robot.visible > 0.0 && is_of(sighting, robot.truth)
+        let mut left = seen.to_vec();
+        for takes_other_team in [false, true] {
+            left.retain(|&(team, sighting)| {
+                let free = robots.iter().enumerate().filter(|(index, robot)| {
+                    matched[*index].is_none()
+                        && robot.visible > 0.0
+                        && is_of(sighting, robot.truth, 0.0)
+                        && (takes_other_team || robot.team == team)
+                });
+                let off = |robot: &OtherRobot| wrap_angle(robot.truth.bearing - sighting.bearing).abs();
+                let nearest = free.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b))).map(|(index, _)| index);
+                nearest.into_iter().for_each(|index| matched[index] = Some((team, sighting)));
+                nearest.is_none()
             });
-            let off = |robot: &OtherRobot| wrap_angle(robot.truth.bearing - sighting.bearing).abs();
-            let nearest = free.min_by(|(_, a), (_, b)| off(a).total_cmp(&off(b))).map(|(index, _)| index);
-            nearest.into_iter().for_each(|index| matched[index] = Some((team, sighting)));
         }
         for (robot, matched) in robots.iter().zip(matched) {
             let seen = matched.map(|(_, sighting)| sighting);
@@ -83,11 +92,27 @@ mod tests {
     #[test]
     fn a_ball_that_is_seen_elsewhere_is_a_phantom_and_a_miss() {
         let mut readings = Readings::default();
-        readings.note_ball(at(2.0, 0.1), 1.0, Some(at(2.4, 0.12)));
-        readings.note_ball(at(2.0, 0.1), 1.0, Some(at(2.0, -0.4)));
-        readings.note_ball(at(2.0, 0.1), 0.4, None);
+        readings.note_ball((at(2.0, 0.1), 0.05), 1.0, Some(at(2.4, 0.12)));
+        readings.note_ball((at(2.0, 0.1), 0.05), 1.0, Some(at(2.0, -0.4)));
+        readings.note_ball((at(2.0, 0.1), 0.05), 0.4, None);
         let seen: Vec<bool> = readings.balls.iter().map(|look| look.seen.is_some()).collect();
         assert_eq!((seen, readings.phantoms), (vec![true, false, false], vec![true, false]));
+    }
+
+    #[test]
+    fn a_near_ball_of_which_a_corner_is_seen_is_no_phantom() {
+        let mut readings = Readings::default();
+        readings.note_ball((at(0.25, 0.75), 0.45), 0.6, Some(at(0.32, 0.55)));
+        assert_eq!(readings.phantoms, [false; 0]);
+    }
+
+    #[test]
+    fn a_robot_is_of_the_team_that_its_own_marker_says_whatever_else_is_seen_beside_it() {
+        let robots = [OtherRobot { team: Away, truth: at(2.0, 0.0), visible: 1.0 }];
+        let mut readings = Readings::default();
+        readings.note_robots(&robots, &[(Home, at(2.2, 0.02)), (Away, at(2.0, 0.05))]);
+        readings.note_robots(&robots, &[(Home, at(2.2, 0.02))]);
+        assert_eq!(readings.mistaken, [false, true]);
     }
 
     #[test]

@@ -19,6 +19,9 @@ pub struct EyesReport {
     pub camera: String,
     /// Number by number.
     pub numbers: Vec<FittedNumber>,
+    /// By which share of itself the range of a ball in full view is measured too long, on average. The fast model's ranges are right on
+    /// average. Nothing, if no ball was seen.
+    pub range_bias: Option<f32>,
     /// Pictures that were taken.
     pub views: u32,
     /// Of the dice.
@@ -45,29 +48,42 @@ const WHOLE: f32 = 0.99;
 
 impl EyesReport {
     pub(super) fn new(
-        numbers: Vec<FittedNumber>,
+        (numbers, range_bias): (Vec<FittedNumber>, Option<f32>),
         [eyes, camera]: [String; 2],
         (views, seed): (u32, u64),
         interrupted: bool,
     ) -> EyesReport {
-        EyesReport { eyes, camera, numbers, views, seed, interrupted }
+        EyesReport { eyes, camera, numbers, range_bias, views, seed, interrupted }
     }
+}
+
+fn whole(looks: &[ComparedSighting]) -> Vec<ComparedSighting> {
+    looks.iter().filter(|look| look.visible > WHOLE).copied().collect()
+}
+
+/// True ranges of balls in full view that were seen, and what was measured too much, m.
+fn range_errors_of(balls: &[ComparedSighting]) -> Vec<(f32, f32)> {
+    let errors =
+        balls.iter().filter_map(|look| Some((look.truth.range, look.seen?.range - look.truth.range)));
+    errors.collect()
+}
+
+/// By which share of itself the range of a ball in full view is measured too long, on average.
+pub(super) fn range_bias(readings: &Readings) -> Option<f32> {
+    let errors = range_errors_of(&whole(&readings.balls));
+    let sum: f64 = errors.iter().map(|(range, error)| f64::from(error / range)).sum();
+    (!errors.is_empty()).then(|| (sum / errors.len() as f64) as f32)
 }
 
 /// The numbers of a model that readings tell of; ranges up to `most` metres.
 pub(super) fn numbers(fast: &Camera, readings: &Readings, most: f32) -> Vec<FittedNumber> {
-    let whole = |looks: &[ComparedSighting]| -> Vec<ComparedSighting> {
-        looks.iter().filter(|look| look.visible > WHOLE).copied().collect()
-    };
     let (balls, robots) = (whole(&readings.balls), whole(&readings.robots));
     let looks = |of: &[ComparedSighting]| {
         of.iter().map(|look| (look.truth.range, look.seen.is_some())).collect::<Vec<_>>()
     };
     let of_ball = reach(&looks(&balls), most, fast);
     let of_robots = reach(&looks(&robots), most, fast);
-    let errors: Vec<(f32, f32)> = (balls.iter())
-        .filter_map(|look| Some((look.truth.range, look.seen?.range - look.truth.range)))
-        .collect();
+    let errors = range_errors_of(&balls);
     let range = range_errors(&errors);
     let bearings = balls.iter().filter_map(|look| Some(wrap_angle(look.seen?.bearing - look.truth.bearing)));
     // Beyond the range nothing is recognised, however much of it is to be seen.
@@ -115,6 +131,10 @@ impl Display for EyesReport {
         for FittedNumber { field, file, fitted, readings } in &self.numbers {
             let fitted = fitted.map_or_else(|| "-".to_owned(), |fitted| format!("{fitted:.4}"));
             writeln!(f, "{field:16}{file:>8.4}{fitted:>10}{readings:>10}")?;
+        }
+        if let Some(bias) = self.range_bias {
+            let (percent, way) = (100.0 * bias.abs(), if bias < 0.0 { "short" } else { "long" });
+            writeln!(f, "ranges of the ball come out {percent:.1} % too {way} on average")?;
         }
         write!(f, "{} pictures, seed {}", self.views, self.seed)
     }

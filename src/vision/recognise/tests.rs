@@ -100,6 +100,17 @@ fn a_ball_at_the_pictures_edge_is_completed() {
 }
 
 #[test]
+fn a_ball_in_a_corner_of_the_picture_is_completed() {
+    let known = cye();
+    for (range, bearing) in [(0.25, 0.72), (0.33, -0.78), (0.4, 0.8)] {
+        let ball = look(&CYE, &known, &[ball_at(at(range, bearing), 0.11)]).ball;
+        let ball = ball.unwrap_or_else(|| panic!("no ball at {range} {bearing}"));
+        let off = wrap_angle(ball.bearing - bearing).abs();
+        assert!((ball.range - range).abs() < 0.06 && off < 0.06, "{range} {bearing}: {ball:?}");
+    }
+}
+
+#[test]
 fn half_a_ball_behind_something_grey_is_near_where_it_is() {
     let known = cye();
     let hides = (Prop::Screen(Vec2::new(1.2, 0.01), Vec2::new(1.2, -0.5), 0.25), None);

@@ -8,6 +8,7 @@ use bevy::prelude::*;
 
 use super::localisation::PoseError;
 use super::picture::{Canvas, Hall, Light, Moment, Shot};
+use super::sway::MountError;
 use crate::clock::Clock;
 use crate::geometry::{Attacking, Pose, Sighting};
 use crate::ops;
@@ -113,6 +114,9 @@ pub struct ImageMemory {
     filter: PoseFilter,
     /// rad downwards
     tilt: f32,
+    /// What joints and mount of the camera are off, of which the robot knows nothing.
+    mount: MountError,
+    mount_dice: Dice,
     dice: Dice,
 }
 
@@ -166,7 +170,17 @@ impl ImageMemory {
         let error = by_hand(start.sensing.eyes.put_down());
         let filter = start.told.map_or_else(PoseFilter::lost, |told| PoseFilter::told(told, error));
         let dice = Dice::new(start.seed, "picture", Some(start.id));
-        ImageMemory { last: None, filter, tilt, dice }
+        let mut mount_dice = Dice::new(start.seed, "camera mount", Some(start.id));
+        let play = start.calibration.as_ref().map(|camera| camera.flaws.play).unwrap_or_default();
+        let mount = MountError::drawn(&play, &mut mount_dice);
+        ImageMemory { last: None, filter, tilt, mount, mount_dice, dice }
+    }
+
+    /// What joints and mount are off now.
+    pub(super) fn mount(&mut self, camera: &CameraCalibration) -> MountError {
+        let dt = 1.0 / camera.settings.frame_hz;
+        self.mount = self.mount.drifted(&camera.flaws.play, dt, &mut self.mount_dice);
+        self.mount
     }
 
     /// The last picture, and what the robot recognised in it. Nothing before the first one.

@@ -10,6 +10,7 @@ mod localisation;
 mod odometry;
 pub mod picture;
 mod shutter;
+pub mod sway;
 #[cfg(test)]
 mod tests;
 

@@ -7,6 +7,7 @@ use bevy::prelude::*;
 use super::eyesight::Eyesight;
 use super::images::{HallLight, ImageEyes, ImageMemory, ImageSight, PictureHall};
 use super::picture::{Moment, Shot, robot_paint};
+use super::sway::{Stride, Sway};
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
@@ -93,11 +94,14 @@ pub(super) fn take_pictures(
         }
         let (hall, known) = &*hall.of(&subjects.pitch, &subjects.kind, || subjects.paints());
         let tilt = if handling.hides_ball() { camera.optics.nod.to_radians() } else { memory.tilt() };
+        let stride = Stride::after(clock.now(), camera.flaws.sway.rate, effort(robot, twist));
         let shot = Shot {
             robot: *id,
             from: *pose,
             gaze: Gaze { pan: head.pan, tilt },
+            sway: Sway::of(&camera.flaws, stride, memory.mount(camera), head.pan),
             optics: camera.optics,
+            flaws: camera.flaws,
             settings: camera.settings,
             turn_rate: twist.angular + memory.pan_rate(head.pan, &clock),
             hides_ball: handling.hides_ball(),
@@ -118,6 +122,11 @@ pub(super) fn take_pictures(
         let frame = memory.look(&mut eyes, &sight, &shot, camera);
         eyesight.under_way.push_back(frame);
     }
+}
+
+/// How fast a robot moves, as a share of its full speed, turns included.
+fn effort(robot: &Robot, twist: &Twist) -> f32 {
+    twist.linear.length() / robot.kind.max_speed() + twist.angular.abs() / robot.kind.max_turn()
 }
 
 impl Subjects<'_, '_> {

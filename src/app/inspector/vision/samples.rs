@@ -4,7 +4,8 @@ use crate::data::AssetFolder;
 use crate::game::{Choice, MatchPlan};
 use crate::vision::paint::RobotPaint;
 use crate::vision::{
-    CameraCalibration, CameraSettings, ColourBox, ColourClass, ColourTable, Image, KnownObjects, Optics, Yuv,
+    CameraCalibration, CameraFlaws, CameraSettings, ColourBox, ColourClass, ColourTable, Image, KnownObjects,
+    Optics, Yuv,
 };
 
 /// A calibration that cuts [`hall`] right.
@@ -14,6 +15,7 @@ pub fn calibration() -> CameraCalibration {
     CameraCalibration {
         name: "By hand".into(),
         optics,
+        flaws: CameraFlaws::default(),
         settings: CameraSettings::default(),
         colours: ColourTable(colours.into()),
     }

@@ -10,6 +10,7 @@ use super::moment::Moment;
 use super::raster::Raster;
 use super::shot::{Shot, Viewpoint};
 use super::solid::Spread;
+use super::warp::Warp;
 use crate::rng::Dice;
 use crate::vision::{ColourClass, Image};
 
@@ -18,6 +19,7 @@ use crate::vision::{ColourClass, Image};
 pub struct Canvas {
     image: Image,
     raster: Raster,
+    warp: Warp,
     glass: Glass,
     film: Film,
     sphere: Sphere,
@@ -27,6 +29,7 @@ impl Canvas {
     /// Draws what a camera sees.
     pub fn draw(&mut self, hall: &Hall, moment: &Moment, shot: &Shot, light: &Light, dice: &mut Dice) {
         self.paint(hall, moment, shot, light.mean.unevenness);
+        self.warp.apply(shot, self.raster.tones());
         self.glass.fit(shot.size());
         let (light, amplification) = (light.rgb(), shot.amplification());
         let exposure = Exposure {
@@ -34,10 +37,10 @@ impl Canvas {
             gain: shot.settings.gain,
             smear: shot.smear(),
         };
-        self.film.develop(&self.raster, &self.glass, &exposure, dice, &mut self.image);
+        self.film.develop((self.warp.tones(), shot.size()), &self.glass, &exposure, dice, &mut self.image);
     }
 
-    /// Paints what each pixel shows.
+    /// Paints what each pixel would show through a lens that does not bend, held as it is.
     fn paint(&mut self, hall: &Hall, moment: &Moment, shot: &Shot, unevenness: f32) {
         let view = Viewpoint::of(shot);
         let light = Spread { evenness: &hall.evenness, unevenness };
@@ -61,6 +64,6 @@ impl Canvas {
 
     /// What each pixel of the last picture truly shows, if it is of a class: row by row, before a turn smears it.
     pub fn truth(&self) -> impl Iterator<Item = Option<ColourClass>> + '_ {
-        self.raster.tones().iter().map(|tone| tone.material().class())
+        self.warp.tones().iter().map(|tone| tone.material().class())
     }
 }

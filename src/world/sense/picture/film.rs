@@ -1,22 +1,22 @@
-//! What a sensor makes of light: amplified, clipped and noisy brightness and colour.
-
-use std::ops::Range;
+//! What lens and sensor make of light: blurred, amplified, clipped and noisy brightness and colour.
 
 use super::glass::Glass;
-use super::material::{FULL_SHADE, Material, SHADES, TONES};
-use super::raster::Raster;
+use super::material::{FULL_SHADE, Material, SHADES, TONES, Tone};
 use crate::rng::{Dice, Seed};
 use crate::vision::{Image, Yuv};
 
-/// A sensor with its tables and room for one row.
+/// A sensor with its tables and room for three rows.
 #[derive(Clone, Debug)]
 pub struct Film {
     /// For each tone, what the sensor gives of it.
     palette: Box<[Signal; TONES]>,
     /// Standard normal, 1 is [`NOISE_UNIT`]: a stretch for each channel.
     noise: [Vec<i16>; 3],
-    row: Channels,
+    /// The row at hand, and those above and below it, by their numbers' remainder.
+    rows: [Channels; 3],
     blurred: Vec<i16>,
+    /// The channels of the row at hand, as they come to the picture.
+    developed: [Vec<u8>; 3],
 }
 
 /// How a picture is exposed.
@@ -45,7 +45,7 @@ impl Signal {
     }
 }
 
-/// The channels of a row. The colours have a pixel more on both sides.
+/// The channels of a row, with a pixel more on both sides.
 #[derive(Clone, Debug, Default)]
 struct Channels {
     y: Vec<i16>,
@@ -55,6 +55,11 @@ struct Channels {
 }
 
 const NOISE_UNIT: f32 = 32.0;
+/// What a pixel gets of the brightness of the next ones, as a power of two: an eighth. ASSUMPTION: at the finest pattern of light
+/// and dark that the pixels can show, half of the contrast is left, as of a small lens.
+const LENS: u32 = 3;
+/// What a pixel gets of the colour of the next ones, as a power of two: a quarter, as of a sensor with one colour a pixel.
+const MOSAIC: u32 = 2;
 /// Rows begin at any of so many places of the noise.
 const STARTS: usize = 4096;
 /// The widest picture.
@@ -73,36 +78,39 @@ impl Default for Film {
         Film {
             palette: Box::new([Signal::default(); TONES]),
             noise: [noise(), noise(), noise()],
-            row: Channels::default(),
+            rows: Default::default(),
             blurred: Vec::new(),
+            developed: Default::default(),
         }
     }
 }
 
 impl Film {
-    /// Makes a picture of what was painted.
+    /// Makes a picture of what each pixel shows, of this width and height.
     pub fn develop(
         &mut self,
-        raster: &Raster,
+        (tones, (width, height)): (&[Tone], (usize, usize)),
         glass: &Glass,
         exposure: &Exposure,
         dice: &mut Dice,
         image: &mut Image,
     ) {
-        let (width, height) = raster.size();
         (image.width, image.height) = (width, height);
         image.pixels.resize(width * height, Yuv::default());
-        self.row.fit(width);
+        self.rows.iter_mut().for_each(|row| row.fit(width));
         self.mix(exposure);
         let smear = (exposure.smear.round() as usize).min(width);
-        for row in 0..height {
-            let span = row * width..(row + 1) * width;
-            self.gather(raster, glass, span.clone());
-            if smear > 1 {
-                self.blur(smear);
+        for row in 0..=height {
+            if row < height {
+                self.gather(row, tones, glass, smear);
             }
-            let start = (dice.uniform() * STARTS as f32) as usize;
-            self.fix(&mut image.pixels[span], start);
+            if let Some(above) = row.checked_sub(1) {
+                let span = above * width..row * width;
+                let start = (dice.uniform() * STARTS as f32) as usize;
+                // The first row has none above it, and the last one none below.
+                let near = [above.saturating_sub(1), above, row.min(height - 1)].map(|row| row % 3);
+                self.fix(near, &mut image.pixels[span], start);
+            }
         }
     }
 
@@ -123,66 +131,74 @@ impl Film {
         }
     }
 
-    fn gather(&mut self, raster: &Raster, glass: &Glass, span: Range<usize>) {
-        let Channels { y, u, v, noise } = &mut self.row;
-        let width = y.len();
-        let colours = u[1..].iter_mut().zip(&mut v[1..]);
-        let out = y.iter_mut().zip(noise).zip(colours);
+    /// Reads a row, smeared over so many pixels.
+    fn gather(&mut self, row: usize, tones: &[Tone], glass: &Glass, length: usize) {
+        let Channels { y, u, v, noise } = &mut self.rows[row % 3];
+        let width = noise.len();
+        let span = row * width..(row + 1) * width;
+        let out = y[1..].iter_mut().zip(&mut u[1..]).zip(&mut v[1..]).zip(noise);
         let lens = glass.light[span.clone()].iter().zip(&glass.shift[span.clone()]);
-        for ((tone, (light, shift)), ((y, noise), (u, v))) in raster.tones()[span].iter().zip(lens).zip(out) {
+        for ((tone, (light, shift)), (((y, u), v), noise)) in tones[span].iter().zip(lens).zip(out) {
             let [bright, blue, red, deviation] =
                 self.palette[tone.darkened(u16::from(*light)).index()].parts();
             let shift = i16::from(*shift);
             (*y, *u, *v, *noise) = (bright, blue + shift, red - shift / 2, deviation);
         }
-        for colour in [u, v] {
-            colour[0] = colour[1];
-            colour[width + 1] = colour[width];
-        }
-    }
-
-    /// Smears a row over so many pixels.
-    fn blur(&mut self, length: usize) {
-        let Channels { y, u, v, .. } = &mut self.row;
-        let width = y.len();
-        for channel in [&mut y[..], &mut u[1..=width], &mut v[1..=width]] {
-            smear(channel, length, &mut self.blurred);
-        }
-    }
-
-    /// Adds noise, mixes neighbouring colours as a sensor with one colour a pixel does, and writes pixels.
-    fn fix(&mut self, pixels: &mut [Yuv], start: usize) {
-        let Channels { y, u, v, noise } = &mut self.row;
-        let width = y.len();
-        self.blurred.resize(width, 0);
-        let [of_y, of_u, of_v] = [0, 1, 2].map(|channel| &self.noise[channel][start..start + width]);
-        for ((y, noise), random) in y.iter_mut().zip(&*noise).zip(of_y) {
-            *y = (*y + ((random * noise) >> 9)).clamp(0, 255);
-        }
-        for (colour, of_colour) in [(u, of_u), (v, of_v)] {
-            let mixed = &mut self.blurred;
-            let neighbours = colour.iter().zip(&colour[1..]).zip(&colour[2..]);
-            for (((mixed, ((left, middle), right)), noise), random) in
-                mixed.iter_mut().zip(neighbours).zip(&*noise).zip(of_colour)
-            {
-                *mixed = (((left + 2 * middle + right + 2) >> 2) + ((random * noise) >> 9)).clamp(0, 255);
+        for channel in [y, u, v] {
+            if length > 1 {
+                smear(&mut channel[1..=width], length, &mut self.blurred);
             }
-            colour[..width].copy_from_slice(mixed);
+            channel[0] = channel[1];
+            channel[width + 1] = channel[width];
         }
-        let Channels { y, u, v, .. } = &self.row;
-        for (((pixel, y), u), v) in pixels.iter_mut().zip(y).zip(u).zip(v) {
-            *pixel = Yuv { y: *y as u8, u: *u as u8, v: *v as u8 };
+    }
+
+    /// Mixes a row with those above and below it, adds noise and writes pixels.
+    fn fix(&mut self, [above, here, below]: [usize; 3], pixels: &mut [Yuv], start: usize) {
+        let [above, here, below] = [&self.rows[above], &self.rows[here], &self.rows[below]];
+        let (room, [of_y, of_u, of_v]) = (&mut self.blurred, &mut self.developed);
+        let noise =
+            [0, 1, 2].map(|channel| (&self.noise[channel][start..start + pixels.len()], &here.noise[..]));
+        expose::<LENS>([&above.y, &here.y, &below.y], noise[0], room, of_y);
+        expose::<MOSAIC>([&above.u, &here.u, &below.u], noise[1], room, of_u);
+        expose::<MOSAIC>([&above.v, &here.v, &below.v], noise[2], room, of_v);
+        for (((pixel, y), u), v) in pixels.iter_mut().zip(of_y).zip(of_u).zip(of_v) {
+            *pixel = Yuv { y: *y, u: *u, v: *v };
         }
     }
 }
 
 impl Channels {
     fn fit(&mut self, width: usize) {
-        self.y.resize(width, 0);
+        for channel in [&mut self.y, &mut self.u, &mut self.v] {
+            channel.resize(width + 2, 0);
+        }
         self.noise.resize(width, 0);
-        self.u.resize(width + 2, 0);
-        self.v.resize(width + 2, 0);
     }
+}
+
+/// Mixes each value of a row with those around it, and adds noise of a strength. The rows have a value more on both sides.
+fn expose<const BITS: u32>(
+    [above, here, below]: [&[i16]; 3],
+    (random, strength): (&[i16], &[i16]),
+    mixed: &mut Vec<i16>,
+    out: &mut Vec<u8>,
+) {
+    mixed.clear();
+    mixed.extend(
+        above.iter().zip(here).zip(below).map(|((above, here), below)| blend::<BITS>(*above, *here, *below)),
+    );
+    let values = mixed.iter().zip(&mixed[1..]).zip(&mixed[2..]);
+    let noise = random.iter().zip(strength).map(|(random, strength)| (random * strength) >> 9);
+    out.clear();
+    out.extend(values.zip(noise).map(|(((left, middle), right), noise)| {
+        (blend::<BITS>(*left, *middle, *right) + noise).clamp(0, 255) as u8
+    }));
+}
+
+/// A value of which one of 2 to the power of `BITS` parts is each neighbour's.
+fn blend<const BITS: u32>(before: i16, own: i16, after: i16) -> i16 {
+    (before + own * ((1 << BITS) - 2) + after + (1 << (BITS - 1))) >> BITS
 }
 
 /// Replaces each pixel of a row by the mean of so many neighbours, with the last one of the row repeated beyond its ends.
@@ -230,6 +246,20 @@ mod tests {
     fn a_sensor_clips_each_colour_so_that_too_much_light_makes_all_white() {
         let orange = signal(Exposure { light: [20.0; 3], ..EXPOSURE }, ColourClass::Orange);
         assert_eq!(orange.to_rgb(), [255; 3]);
+    }
+
+    #[test]
+    fn a_point_of_light_spreads_to_its_neighbours_and_no_light_is_lost() {
+        let rows = [[0; 7], [0, 0, 0, 240, 0, 0, 0], [0; 7]];
+        let still = [0; 5];
+        let (mut room, mut out) = (Vec::new(), Vec::new());
+        let mut row = |above: usize, here: usize, below: usize| {
+            let near = [above, here, below].map(|row| &rows[row][..]);
+            expose::<MOSAIC>(near, (&still, &still), &mut room, &mut out);
+            out.clone()
+        };
+        assert_eq!(row(0, 1, 2), [0, 30, 60, 30, 0]);
+        assert_eq!(row(0, 0, 1), [0, 15, 30, 15, 0]);
     }
 
     #[test]

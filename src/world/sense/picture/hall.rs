@@ -8,9 +8,10 @@ use super::material::Material;
 use super::solid::{Solids, circle, rectangle};
 use crate::geometry::Zone;
 use crate::pitch::{BallKind, Pitch};
+use crate::rng::{Dice, Seed};
 use crate::vision::ColourClass;
 use crate::vision::paint::{
-    BEACON_BANDS, BEACON_RADIUS, FENCE_HEIGHT, HeightBand, PitchPaint, beacon_colours, goal_colour,
+    BEACON_BANDS, BEACON_RADIUS, CLOTHES, FENCE_HEIGHT, HeightBand, PitchPaint, beacon_colours, goal_colour,
 };
 use crate::world::physics::wall_boxes;
 
@@ -43,6 +44,7 @@ impl Hall {
         let edge = outermost + ROOM;
         let mut solids = Solids::default();
         add_hall(edge, &mut solids);
+        add_people(outermost, &mut solids);
         let paint = PitchPaint::of(pitch);
         match paint.walls {
             Some(height) => add_walls(pitch, height, &mut solids),
@@ -61,7 +63,7 @@ const fn up_to(top: f32) -> HeightBand {
     HeightBand { bottom: 0.0, top }
 }
 
-/// Pieces of wall that differ a little, as doors, curtains and people do.
+/// Pieces of wall that differ a little, as doors and curtains do.
 fn add_hall(edge: Vec2, solids: &mut Solids) {
     let corners = rectangle(Vec2::ZERO, edge);
     for side in 0..4 {
@@ -77,6 +79,48 @@ fn add_hall(edge: Vec2, solids: &mut Solids) {
             solids.panel([at(piece), at(piece + 1)], up_to(HALL_HEIGHT), material);
         }
     }
+}
+
+/// From one of the people to the next along the pitch, m. ASSUMPTION.
+const APART: f32 = 1.2;
+/// How near people come to the outermost walls, and how far from them they stand, m. ASSUMPTION.
+const AUDIENCE: (f32, f32) = (0.7, 2.2);
+/// Half of a body's width and of a head's, m.
+const SHOULDERS: (f32, f32) = (0.22, 0.08);
+/// The share of shirts in colours that are like those of a pitch: the league asks people near the pitch not to wear such. ASSUMPTION.
+const GAUDY: f32 = 0.3;
+/// Clothes that are dull, and which of them is skin.
+const DULL: (usize, usize) = (2, 2);
+
+/// People who stand around the pitch and look on: they face its middle, flat as posters. The same for all matches.
+fn add_people(outermost: Vec2, solids: &mut Solids) {
+    let mut dice = Dice::new(Seed(0), "people", None);
+    let corners = rectangle(Vec2::ZERO, outermost);
+    for side in 0..4 {
+        let (from, to) = (corners[side], corners[(side + 1) % 4]);
+        let places = (from.distance(to) / APART) as usize;
+        let outwards = -(to - from).perp().normalize_or_zero();
+        for place in 0..places {
+            let along = from.lerp(to, (place as f32 + dice.uniform()) / places as f32);
+            let beyond = AUDIENCE.0 + (AUDIENCE.1 - AUDIENCE.0) * dice.uniform();
+            add_person(along + outwards * beyond, &mut dice, solids);
+        }
+    }
+}
+
+fn add_person(at: Vec2, dice: &mut Dice, solids: &mut Solids) {
+    let scale = 0.9 + 0.2 * dice.uniform();
+    let mut any = |from: usize, to: usize| from + (dice.uniform() * (to - from) as f32) as usize;
+    let (trousers, dull, gaudy) = (any(0, DULL.0), any(0, DULL.0), any(DULL.1 + 1, CLOTHES.len()));
+    let shirt = if dice.chance(GAUDY) { gaudy } else { dull };
+    let across = (-at).normalize_or_zero().perp();
+    let mut part = |half: f32, bottom: f32, top: f32, clothes: usize| {
+        let band = HeightBand { bottom: bottom * scale, top: top * scale };
+        solids.panel([at - across * half, at + across * half], band, Material::clothes(clothes));
+    };
+    part(SHOULDERS.0, 0.0, 0.85, trousers);
+    part(SHOULDERS.0, 0.85, 1.45, shirt);
+    part(SHOULDERS.1, 1.45, 1.72, DULL.1);
 }
 
 fn add_walls(pitch: &Pitch, height: f32, solids: &mut Solids) {

@@ -1,7 +1,7 @@
 //! What a pixel shows, and how bright it is: one number a pixel.
 
 use crate::vision::ColourClass;
-use crate::vision::paint::{DARK_GREY, FENCE_GREY, HALL_GREY, LIGHT_GREY, Rgb, paint};
+use crate::vision::paint::{CLOTHES, DARK_GREY, FENCE_GREY, HALL_GREY, LIGHT_GREY, Rgb, paint};
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,8 @@ impl Material {
     pub const LIGHT: Material = Material(11);
     /// See [`DARK_GREY`].
     pub const DARK: Material = Material(12);
-    const FIRST_CLASS: u8 = 13;
+    const FIRST_CLOTHES: u8 = 13;
+    const FIRST_CLASS: u8 = Material::FIRST_CLOTHES + CLOTHES.len() as u8;
     /// The number of materials.
     pub const COUNT: usize = Material::FIRST_CLASS as usize + ColourClass::ALL.len();
 
@@ -39,6 +40,11 @@ impl Material {
     /// Something in the colour of a class.
     pub const fn of(class: ColourClass) -> Material {
         Material(Material::FIRST_CLASS + class.index() as u8)
+    }
+
+    /// One of the [clothes](CLOTHES).
+    pub const fn clothes(index: usize) -> Material {
+        Material(Material::FIRST_CLOTHES + (index % CLOTHES.len()) as u8)
     }
 
     /// Body paint.
@@ -68,6 +74,9 @@ impl Material {
                 let share = f32::from(step) / f32::from(LINE_STEPS);
                 let (line, carpet) = (of(paint(ColourClass::White)), of(paint(ColourClass::Green)));
                 [0, 1, 2].map(|channel| carpet[channel] + share * (line[channel] - carpet[channel]))
+            }
+            number if (Material::FIRST_CLOTHES..Material::FIRST_CLASS).contains(&number) => {
+                of(CLOTHES[usize::from(number - Material::FIRST_CLOTHES)])
             }
             _ => of(match self {
                 Material::FENCE => FENCE_GREY,

@@ -2,7 +2,8 @@
 //!
 //! A [`Canvas`] draws one [`Shot`] of a [`Hall`] at a [`Moment`] in some [`Light`]. Each pixel is first what it shows and how
 //! bright that is (`raster`): the floor row by row from a picture of it from above, then convex polygons and the ball, the nearest
-//! first. A sensor (`film`) then makes brightness and colours of that, with noise, through a lens (`glass`). What is painted is also the
+//! first. That is moved to where the sensor has it (`warp`): a lens bends, a body sways, rows are read one after the other. The sensor
+//! (`film`) then makes brightness and colours of it, with noise, through the lens (`glass`). What each pixel shows is also the
 //! [truth](Canvas::truth) that segmentation is measured against.
 
 mod ball;
@@ -20,6 +21,7 @@ mod shot;
 mod solid;
 #[cfg(test)]
 mod tests;
+mod warp;
 
 pub use canvas::Canvas;
 pub use hall::Hall;

@@ -12,7 +12,8 @@ use crate::pitch::{BallKind, Pitch};
 use crate::rng::{Dice, Seed};
 use crate::robot::RobotKind;
 use crate::testing::{BALL, cye, pitch};
-use crate::vision::{CameraSettings, ColourClass, Gaze, Image, Optics, Resolution};
+use crate::vision::{CameraFlaws, CameraSettings, ColourClass, Gaze, Image, Optics, Resolution};
+use crate::world::sense::sway::Sway;
 
 const ME: RobotId = RobotId::new(Team::Home, 1);
 const OTHER: RobotId = RobotId::new(Team::Away, 2);
@@ -35,7 +36,9 @@ fn shot(from: Pose, tilt: f32) -> Shot {
         robot: ME,
         from,
         gaze: Gaze { pan: 0.0, tilt },
+        sway: Sway::default(),
         optics: NOSE,
+        flaws: CameraFlaws::default(),
         settings: CameraSettings::default(),
         turn_rate: 0.0,
         hides_ball: false,
@@ -111,6 +114,66 @@ fn the_ball_is_where_the_optics_project_it_and_as_large() {
             assert!((area / (PI * radius * radius) - 1.0).abs() < 0.25, "{area} {radius}");
         }
     }
+}
+
+#[test]
+fn a_camera_that_sways_shows_the_ball_where_it_looks_in_truth() {
+    let (from, ball) = (Pose::new(-1.0, 0.3, 0.4), Vec2::new(0.1, 0.6));
+    let straight = shot(from, 0.2);
+    let sway = Sway { pan: 0.03, tilt: -0.02, ..Sway::default() };
+    let mut studio = Studio::with_ball(ball);
+    let seen = studio.centroid(&Shot { sway, ..straight }, ColourClass::Orange);
+    let held = Shot { gaze: Gaze { pan: 0.03, tilt: 0.18 }, ..straight };
+    assert!(seen.distance(projected(&held, ball, 0.045)) < 1.0, "{seen}");
+    assert!(seen.distance(projected(&straight, ball, 0.045)) > 5.0, "{seen}");
+}
+
+#[test]
+fn a_camera_that_rolls_clockwise_shows_what_is_on_the_left_lower() {
+    let from = Pose::default();
+    let roll = 0.08;
+    for (ball, side) in [(Vec2::new(1.0, 0.4), 1.0), (Vec2::new(1.0, -0.4), -1.0)] {
+        let straight = shot(from, 0.2);
+        let mut studio = Studio::with_ball(ball);
+        let level = studio.centroid(&straight, ColourClass::Orange);
+        let rolled = studio
+            .centroid(&Shot { sway: Sway { roll, ..Sway::default() }, ..straight }, ColourClass::Orange);
+        let fall = (rolled.y - level.y) * side;
+        let meant = roll * (level.x - 104.0).abs();
+        assert!((fall - meant).abs() < 1.0, "{ball} {fall}, not {meant}");
+    }
+}
+
+#[test]
+fn a_lens_with_distortion_draws_the_edges_as_brown_says() {
+    let flaws = CameraFlaws { distortion: (-0.147, 0.385), ..CameraFlaws::default() };
+    for bearing in [0.42_f32, 0.3, -0.25] {
+        let ball = crate::geometry::unit(bearing);
+        let shot = Shot { flaws, ..shot(Pose::default(), 0.145) };
+        let seen = Studio::with_ball(ball).centroid(&shot, ColourClass::Orange) - Vec2::new(104.0, 80.0);
+        let straight = projected(&shot, ball, 0.045) - Vec2::new(104.0, 80.0);
+        let square = (straight / NOSE.focal_length(208)).length_squared();
+        let meant = straight * (1.0 - 0.147 * square + 0.385 * square * square);
+        assert!(seen.distance(meant) < 0.6, "{bearing}: {seen}, not {meant}");
+    }
+}
+
+#[test]
+fn a_turn_leans_what_stands_upright_if_rows_are_read_one_after_the_other() {
+    let mut studio = Studio::new();
+    let beacon = Vec2::new(1.35, 2.1);
+    let from = Pose::new(0.2, 0.8, angle(beacon - Vec2::new(0.2, 0.8)));
+    let flaws = CameraFlaws { read_out: 0.03, ..CameraFlaws::default() };
+    let mut lean = |turn_rate: f32| {
+        let shot = Shot { flaws, turn_rate, ..shot(from, -0.05) };
+        let (upper, lower) =
+            (studio.centroid(&shot, ColourClass::Pink), studio.centroid(&shot, ColourClass::SkyBlue));
+        (lower.x - upper.x, lower.y - upper.y)
+    };
+    // A camera that turns to the left reads the lower band later, when it is farther to the right.
+    let (still, turning) = (lean(0.0), lean(2.0));
+    let meant = 2.0 * 0.03 * NOSE.focal_length(208) * still.1 / 160.0;
+    assert!(still.0.abs() < 0.3 && (turning.0 - meant).abs() < 0.4, "{still:?} {turning:?}, not {meant}");
 }
 
 trait HypotWith {

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::comms::tcm::DataType;
-use crate::vision::{ColourBox, ColourClass, Optics};
+use crate::vision::{CameraFlaws, ColourBox, ColourClass, Optics};
 
 const OPTICS: Optics =
     Optics { width: 208, height: 160, field_of_view: 56.9, mount: 0.19, tilt: 10.0, nod: 40.0 };
@@ -95,6 +95,7 @@ fn everything_comes_back_as_it_was() {
     let calibration = CameraCalibration {
         name: "hall".into(),
         optics: OPTICS,
+        flaws: CameraFlaws { read_out: 0.033, ..CameraFlaws::default() },
         settings: CameraSettings::default(),
         colours: colours(),
     };
