@@ -26,7 +26,9 @@ fn a_calibrated_camera_recognises_the_ball_and_its_errors_grow_with_the_range() 
     assert!(number("detection").1 > 0.6, "{report}");
     assert!((1.0..=7.0).contains(&number("ball_range").1), "{report}");
     assert!(number("range_noise").1 > 0.0 && number("bearing_noise").1 > 0.0, "{report}");
-    assert!((number("ball_range").0 - 3.5).abs() < 1e-6, "{report}");
+    assert!((number("ball_range").0 - 5.9).abs() < 1e-6, "{report}");
+    let bias = report["range_bias"].as_f64().expect("balls were seen");
+    assert!(bias.abs() < 0.03, "ranges are wrong by a share of {bias} on average");
     assert_eq!(report, json(&call), "equal seeds give equal pictures");
 }
 
