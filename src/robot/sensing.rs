@@ -191,7 +191,7 @@ pub struct MemorySpans {
     /// The velocity of a ball is unknown while a robot is seen nearer to it than this, m.
     #[serde(default)]
     pub touched_ball: f32,
-    /// Readings of another place, near each other, until a ball that was believed elsewhere is believed there.
+    /// Readings near each other until a ball is believed where none was, or until one that was believed elsewhere is believed there.
     #[serde(default)]
     pub jump_readings: u32,
 }

@@ -44,7 +44,7 @@ pub struct WorldModel {
     misses: u32,
     /// How long robots have hidden the ball since it was seen last, s.
     hidden_for: f32,
-    /// Where something was seen far from the ball, and how often.
+    /// Where something was seen that is not believed to be the ball yet, and how often.
     elsewhere: Option<(Vec2, u32)>,
 }
 
@@ -234,11 +234,10 @@ impl WorldModel {
         }
     }
 
-    /// What is believed of the ball after a reading, if the reading is believed: one far from where the ball should be needs
-    /// others near it.
+    /// What is believed of the ball after a reading, if the reading is believed: one far from where the ball should be, or of a ball
+    /// of which nothing is known, needs others near it.
     fn believed(&mut self, at: Vec2, deviation: f32, memory: MemorySpans) -> Option<BallFilter> {
-        let Some(filter) = self.filter else { return Some(BallFilter::new(at, deviation)) };
-        if !filter.is_far(at, deviation) {
+        if let Some(filter) = self.filter.filter(|filter| !filter.is_far(at, deviation)) {
             return Some(filter.update(at, deviation));
         }
         let near = (self.elsewhere).filter(|(other, _)| other.distance(at) < SAME_BALL.max(2.0 * deviation));
