@@ -109,7 +109,8 @@ impl FieldView<'_> {
         spot(if worth(1.0) >= worth(-1.0) { 1.0 } else { -1.0 })
     }
 
-    /// The place that is farthest from all robots and places that are taken, rather on the ball's side.
+    /// The place that is farthest from all robots and places that are taken, rather on the ball's side. A place with room beside those that
+    /// are taken comes before one without.
     fn space(&self, taken: &[Vec2]) -> Vec2 {
         let half = self.half();
         let share = |step: u8, steps: u8| 2.0 * f32::from(step) / f32::from(steps - 1) - 1.0;
@@ -125,8 +126,10 @@ impl FieldView<'_> {
             let others = self.busy.iter().chain(self.opponents).chain(taken);
             nearest(*at, others).unwrap_or(self.pitch.length) - BALL_SIDE * at.distance(self.ball)
         };
-        let rated = points.filter(is_free).map(|at| (worth(&at), at));
-        rated.max_by(|(a, _), (b, _)| a.total_cmp(b)).map_or(Vec2::ZERO, |(_, at)| at)
+        let has_room = |at: &Vec2| taken.iter().all(|other| other.distance(*at) >= 2.0 * self.room);
+        let rated = points.filter(is_free).map(|at| (has_room(&at), worth(&at), at));
+        let best = rated.max_by(|(room, a, _), (other_room, b, _)| room.cmp(other_room).then(a.total_cmp(b)));
+        best.map_or(Vec2::ZERO, |(.., at)| at)
     }
 }
 
@@ -241,6 +244,18 @@ mod tests {
                         prop_assert!(place.distance(*other) >= 2.0 * ROOM, "{places:?}");
                     }
                 }
+            }
+        }
+
+        /// The place that is farthest from everybody else is beside one that is taken.
+        #[test]
+        fn opponents_all_round_leave_room_between_places(dx in -0.05f32..0.05, dy in -0.05f32..0.05) {
+            let opponents = [(2.54, 0.66), (1.37, 1.37), (1.76, 0.62)].map(Vec2::from);
+            let pitch = four_legged();
+            let ball = Vec2::new(2.03 + dx, 0.99 + dy);
+            let places = all_places(&view(&pitch, ball, &opponents), &[Vec2::ZERO; 4]);
+            for (index, place) in places.iter().enumerate() {
+                prop_assert!(places[..index].iter().all(|other| place.distance(*other) >= 2.0 * ROOM), "{places:?}");
             }
         }
 
