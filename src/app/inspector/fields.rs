@@ -93,7 +93,7 @@ impl ToldField {
         }
         ui.horizontal(|ui| {
             if !self.name.is_empty() {
-                ui.label(&self.name);
+                ui.weak(&self.name);
             }
             ui.monospace(&self.value);
         });

@@ -9,7 +9,7 @@ use bevy_inspector_egui::{DefaultInspectorConfigPlugin, bevy_inspector};
 
 use super::entity_names::{NamedEntity, named_entities};
 use super::fields::ToldField;
-use crate::app::view::state::{Inspector, PanelSystems};
+use crate::app::view::state::{FreeArea, Inspector, PanelSystems};
 use crate::state::{StateKind, StateRegister};
 
 pub(super) fn plugin(app: &mut App) {
@@ -19,10 +19,11 @@ pub(super) fn plugin(app: &mut App) {
     );
 }
 
-/// At first it takes this share of the window's height, and no less than so many points; its width.
-const SHARE: f32 = 0.7;
+/// At first it takes this share of the pitch's height, and no less than so many points; its width, and how far it is from the edges.
+const SHARE: f32 = 0.9;
 const LEAST: f32 = 200.0;
 const WIDTH: f32 = 420.0;
+const GAP: f32 = 12.0;
 
 /// What a person looks for among the entities.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
@@ -33,8 +34,12 @@ fn show_world(world: &mut World) -> Result {
     let Ok(mut context) = contexts.single(world).cloned() else { return Ok(()) };
     let mut open = true;
     let context = context.get_mut();
-    let height = (SHARE * context.content_rect().height()).max(LEAST);
-    egui::Window::new("World (F12)").default_size([WIDTH, height]).open(&mut open).show(context, |ui| {
+    let area = world.resource::<FreeArea>().0;
+    let height = (SHARE * area.height()).max(LEAST);
+    let window = egui::Window::new("World (F12)").default_size([WIDTH, height]).constrain_to(area);
+    // The answer to why is at the left.
+    let at = area.right_top() + egui::vec2(-GAP, GAP);
+    window.pivot(egui::Align2::RIGHT_TOP).default_pos(at).open(&mut open).show(context, |ui| {
         let mut search = world.resource::<WorldSearch>().0.clone();
         ui.horizontal(|ui| {
             ui.label("Find");

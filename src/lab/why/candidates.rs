@@ -154,8 +154,8 @@ impl fmt::Display for PacketName {
 impl fmt::Display for Meddling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Meddling::Deliver { packet, reason } => write!(f, "{packet}, which was lost ({reason}), arrives"),
-            Meddling::Drop(packet) => write!(f, "{packet}, which arrived, is lost"),
+            Meddling::Deliver { packet, reason } => write!(f, "{packet} arrives, which was lost ({reason})"),
+            Meddling::Drop(packet) => write!(f, "{packet} is lost, which arrived"),
             Meddling::Unheard { kind, from, .. } => {
                 write!(f, "the {} of {from} is heard by nobody", deed(*kind).unwrap_or("message"))
             }

@@ -66,7 +66,7 @@ fn the_lost_acknowledgement_that_doubled_a_role_is_found() {
     let once = StandingDifference::DoubledRoles { now: Vec::new(), before: vec!["home halfback".into()] };
     assert_eq!((&found.difference, found.agree), (&once, 3));
     let told = report.to_string();
-    let line = "the ACKSWAP from home 3 to home 1, which was lost (fault rule), arrives: no role is given twice; \
+    let line = "the ACKSWAP from home 3 to home 1 arrives, which was lost (fault rule): no role is given twice; \
                 it was home halfback (3 of 3 other dice agree)";
     assert!(told.contains(line), "{told}");
     // What is more likely to be the reason comes before what is less.

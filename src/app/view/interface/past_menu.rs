@@ -28,7 +28,7 @@ fn read_undo(mut contexts: EguiContexts, mut actions: MessageWriter<Action>) -> 
 }
 
 /// Width of the menu's lists, in points.
-const WIDTH: f32 = 330.0;
+const WIDTH: f32 = 420.0;
 
 /// Shows the button and its menu; what a person wants.
 pub fn show_past_menu(
@@ -96,20 +96,32 @@ fn show_branches(ui: &mut egui::Ui, rewind: &Rewind, beside: &mut Beside, wanted
         return;
     }
     for (id, branch) in rewind.branches() {
-        ui.horizontal(|ui| {
-            let is_present = id == rewind.present();
-            let score = rewind.ghost(id, branch.end).map_or([0, 0], |ghost| ghost.score);
-            let text = format!("{}  {} : {}  {}", id.0 + 1, score[0], score[1], branch.name);
-            let place = rewind.ghost(id, branch.from).map_or(0.0, |ghost| f64::from(ghost.played));
-            let tip = format!("From {} on. Play on in this branch", format::clock(place.floor()));
-            if ui.selectable_label(is_present, text).on_hover_text(tip).clicked() && !is_present {
-                wanted.push(Action::TakeBranch(id));
-            }
+        let is_present = id == rewind.present();
+        let score = rewind.ghost(id, branch.end).map_or([0, 0], |ghost| ghost.score);
+        let text = format!("{}  {} : {}  {}", id.0 + 1, score[0], score[1], branch.name);
+        let place = rewind.ghost(id, branch.from).map_or(0.0, |ghost| f64::from(ghost.played));
+        let tip =
+            format!("From {} on: {}. Play on in this branch", format::clock(place.floor()), branch.name);
+        let is_wanted = in_row(ui, |ui| {
             if !is_present {
                 show_beside(ui, id, beside);
             }
+            // What is left of the row is its name's.
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                let label = egui::Button::selectable(is_present, text).truncate();
+                ui.add(label).on_hover_text(tip).clicked()
+            })
+            .inner
         });
+        if is_wanted && !is_present {
+            wanted.push(Action::TakeBranch(id));
+        }
     }
+}
+
+/// A row that is filled from its right end.
+fn in_row<R>(ui: &mut egui::Ui, fill: impl FnOnce(&mut egui::Ui) -> R) -> R {
+    ui.horizontal(|ui| ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), fill).inner).inner
 }
 
 fn show_beside(ui: &mut egui::Ui, id: BranchId, beside: &mut Beside) {

@@ -48,7 +48,7 @@ pub fn show_time_line(
     let middle = line.center().y;
     let played = rewind.ghost(rewind.present(), now).map_or(0.0, |ghost| f64::from(ghost.played));
     let clocks = [
-        (rect.left(), Align2::LEFT_CENTER, played.floor()),
+        (rect.left(), Align2::LEFT_CENTER, scale.clock(now, played).floor()),
         (rect.right(), Align2::RIGHT_CENTER, scale.whole),
     ];
     for (x, align, seconds) in clocks {
@@ -79,7 +79,7 @@ pub fn show_time_line(
     } else {
         response.dragged().then_some(at)
     };
-    response.on_hover_text(told(&near, rewind, line, scale, pointer));
+    response.on_hover_text_at_pointer(told(&near, rewind, line, scale, pointer));
     wanted.filter(|wanted| *wanted != now)
 }
 
@@ -127,7 +127,8 @@ fn told(near: &[&MatchEvent], rewind: &Rewind, line: Rect, scale: &TimeScale, po
     let notes = rewind.bookmarks(rewind.present());
     let notes = notes.filter(|(tick, _)| (scale.x(line, *tick) - pointer.x).abs() < NEAR);
     let notes = notes.map(|(_, note)| format!("“{note}”"));
-    let events = near.iter().map(|event| format!("{}  {}", format::clock(event.played.floor()), event.what));
+    let time = |event: &MatchEvent| format::clock(scale.clock(event.tick, event.played).floor());
+    let events = near.iter().map(|event| format!("{}  {}", time(event), event.what));
     let mut told: Vec<String> = notes.chain(events).collect();
     if told.len() > TOLD {
         let more = told.len() - TOLD;

@@ -9,8 +9,10 @@ pub struct TimeScale {
     pub last: u64,
     /// The ticks at which halves begin and end.
     pub halves: [u64; 3],
-    /// Playing time of the whole, s.
+    /// What the clock shows at the end, s.
     pub whole: f64,
+    /// Seconds of a tick, if the clock goes on in breaks.
+    steady: Option<f64>,
 }
 
 /// How far a match has been played.
@@ -31,14 +33,20 @@ impl TimeScale {
         let after = |seconds: f64| played.ticks + (seconds.max(0.0) / f64::from(dt)).round() as u64;
         let last = after(whole - played.seconds);
         let half_time = played.half_time.unwrap_or_else(|| after(half_seconds - played.seconds));
-        TimeScale { last: last.max(first + 1), halves: [first, half_time, last], whole }
+        TimeScale { last: last.max(first + 1), halves: [first, half_time, last], whole, steady: None }
     }
 
     /// A scenario that ends after a tick.
     pub fn of_scenario(played: PlayedSoFar, end: u64, dt: f32) -> TimeScale {
         let whole = (end as f64 * f64::from(dt)).round();
         let last = end.max(played.ticks).max(1);
-        TimeScale { last, halves: [0, end, end], whole }
+        TimeScale { last, halves: [0, end, end], whole, steady: Some(f64::from(dt)) }
+    }
+
+    /// What the clock shows at a tick at which so many seconds have been played: in a scenario, which ends whatever is played, all
+    /// that are over.
+    pub fn clock(&self, tick: u64, played: f64) -> f64 {
+        self.steady.map_or(played, |dt| tick as f64 * dt)
     }
 
     /// Where a tick lies on a line.
@@ -69,7 +77,7 @@ mod tests {
         let played = PlayedSoFar { ticks: 0, seconds: 0.0, half_time: None };
         let scale = TimeScale::of_match(0, played, 600.0, 1.0 / 60.0);
         assert_eq!((scale.last, scale.halves[1]), (72_000, 36_000));
-        assert_eq!(scale.x(line(), 36_000), 150.0);
+        assert_eq!((scale.x(line(), 36_000), scale.clock(900, 12.0)), (150.0, 12.0));
         let played = PlayedSoFar { ticks: 42_000, seconds: 660.0, half_time: Some(36_600) };
         let scale = TimeScale::of_match(0, played, 600.0, 1.0 / 60.0);
         assert_eq!((scale.last, scale.halves[1]), (42_000 + 32_400, 36_600));
@@ -83,6 +91,10 @@ mod tests {
             assert_eq!(scale.tick(line(), scale.x(line(), tick)), tick);
         }
         assert_eq!((scale.tick(line(), -50.0), scale.tick(line(), 1e6)), (0, 600));
-        assert_eq!(scale.whole, 10.0);
+        assert_eq!(
+            (scale.whole, scale.clock(600, 7.0).round()),
+            (10.0, 10.0),
+            "a break of three seconds counts"
+        );
     }
 }

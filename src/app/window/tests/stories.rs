@@ -340,7 +340,7 @@ fn a_person_sees_which_lost_message_cost_the_goal() {
     frame.assert_says("it is 0 : 1. This would have changed it:");
     let (found, _) =
         frame.texts.iter().find(|(text, whole)| *whole && text.contains("  If ")).expect("a row");
-    let reason = "the ACKLOCK from home 1 to home 3, which was lost (fault rule), arrives";
+    let reason = "the ACKLOCK from home 1 to home 3 arrives, which was lost (fault rule)";
     assert!(found.contains(reason), "the first is {found}, in {:?}", frame.texts);
     let found = found.clone();
     assert_eq!(frame.beside("0:0 instead of 0:1"), Some("4 of 4 other dice agree"), "{:?}", frame.texts);

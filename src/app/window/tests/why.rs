@@ -21,7 +21,7 @@ fn a_person_asks_why_a_role_is_doubled_and_plays_on_without_the_loss_that_did_it
     }
     assert_eq!(window.clock(), 201, "the match stands meanwhile");
     let frame = window.show(SIZE, 1.0);
-    let line = "If the ACKSWAP from home 3 to home 1, which was lost (fault rule), arrives";
+    let line = "If the ACKSWAP from home 3 to home 1 arrives, which was lost (fault rule)";
     let (shown, place) = frame.places.iter().find(|(shown, _)| shown.contains(line)).expect("it is told");
     assert!(
         frame.texts.iter().any(|(text, _)| text.contains("no role is given twice; it was home halfback"))
