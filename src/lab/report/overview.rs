@@ -24,7 +24,7 @@ const HOW_TO_READ: [&str; 8] = [
 ];
 
 const VERDICTS: &str = "A claim held if the whole interval of its difference lies on the side that it names, did not hold if the whole \
-    interval lies on the other side, and otherwise it cannot be said. Each claim is judged by itself: of twenty claims that are wrong, \
+    interval lies on the other side, and otherwise, or with fewer than six seeds, it cannot be said. Each claim is judged by itself: of twenty claims that are wrong, \
     one may seem to hold.";
 
 /// The beginning of a report.
