@@ -40,6 +40,8 @@ const MATCHES: &[ReferenceMatch] = &[
     reference("friendly", "hammerheads_swap", "hammerheads_2000", "awful", 120.0),
     reference("friendly", "hammerheads_swap_paper", "hammerheads_2001", "bursty", 120.0),
     reference("friendly", "cs_freiburg", "art", "perfect", 120.0),
+    reference("friendly", "optimal_assignment", "cs_freiburg", "odin", 120.0),
+    reference("friendly", "hammerheads_swap", "ball_chasers", "nora", 120.0),
     reference("friendly", "rmit", "italian_golem", "good", 120.0),
     reference("friendly", "hammerheads_2001", "hammerheads_swap", "dead", 120.0),
     reference("four_legged_2005", "chaos_b3p", "chaos_plain", "good", 120.0),

@@ -219,7 +219,8 @@ fn every_shipped_experiment_can_be_played() {
         let mut design: ExperimentFile = source.parse_sound().expect("it is sound");
         design.common.push(DesignChange::HalfMinutes(0.02));
         (design.until, design.blocks) = (None, SeedBlocks { first: 3, number: 1 });
-        let stage = Stage::new(&ron::to_string(&design).expect("it can be written"));
+        let stage =
+            Stage::new(&touchline::data::ron_options().to_string(&design).expect("it can be written"));
         let said = stage.play("out", &[]);
         let table = stage.table("out");
         assert_eq!(column(&table, "row").len(), 2 * design.treatments(), "{}", path.display());

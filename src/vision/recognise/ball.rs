@@ -53,7 +53,7 @@ fn as_ball(view: &Perspective, known: &KnownObjects, blob: &ColourBlob) -> Optio
     let fits = disc.fits_its_place(view, known.ball_radius, by_size)
         && estimate.range <= known.farthest
         && lies_on_carpet(view, blob, &disc);
-    fits.then(|| Sighting { range: estimate.range, bearing: disc.bearing })
+    fits.then_some(Sighting { range: estimate.range, bearing: disc.bearing })
 }
 
 /// A ball's outline in the picture.
