@@ -104,11 +104,16 @@ const FEWEST_PAIRS: usize = 6;
 fn judged(claim: &StatedClaim, pairs: &[f64], confidence: f64) -> JudgedClaim {
     let difference = compare_pairs(pairs, confidence, Seed(DEFAULT_SEED));
     let interval = match claim.is {
-        _ if pairs.len() < FEWEST_PAIRS => None,
         ClaimedDifference::Within(margin) => equivalence(pairs, margin, confidence).map(|test| test.interval),
         _ => difference.as_ref().and_then(|difference| difference.interval),
     };
+    let interval = telling(pairs.len(), interval);
     JudgedClaim { claim: claim.clone(), verdict: verdict(claim.is, interval), difference, interval }
+}
+
+/// The interval of the difference of so many pairs, if they are enough to say something of a claim.
+pub(in crate::lab) fn telling(pairs: usize, interval: Option<Interval>) -> Option<Interval> {
+    interval.filter(|_| pairs >= FEWEST_PAIRS)
 }
 
 /// What the interval of a difference says of a claim.

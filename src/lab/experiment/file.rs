@@ -135,6 +135,14 @@ pub enum DesignChange {
     Event(TimedEvent),
 }
 
+/// What is changed of a match, and where the design says so.
+pub(in crate::lab) type PlacedChange = (Field, DesignChange);
+
+/// Changes that a file lists at a place.
+pub(in crate::lab) fn placed(at: &Field, changes: &[DesignChange]) -> Vec<PlacedChange> {
+    changes.iter().enumerate().map(|(place, change)| (at.index(place), change.clone())).collect()
+}
+
 /// The seeds of an experiment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -149,6 +157,15 @@ impl SeedBlocks {
     /// All of them, in order.
     pub fn seeds(self) -> impl Iterator<Item = u64> {
         (self.first..).take(self.number as usize)
+    }
+
+    /// Whether there is one and no more than so many, and none is too large.
+    pub(in crate::lab) fn check(self, field: &str, most: usize) -> Result<(), Fault> {
+        check_count(&format!("{field}.number"), "the number of seeds", self.number as usize, 1..=most)?;
+        let last = self.first.checked_add(self.number.into());
+        ensure(last.is_some_and(|last| last <= LARGEST_SEED), &format!("{field}.first"), || {
+            format!("seeds must be {LARGEST_SEED} at most")
+        })
     }
 }
 
@@ -224,12 +241,10 @@ impl FactorLevels {
     }
 
     /// What a level changes, by its place, and where in the file that stands; the levels themselves are at `at`.
-    pub fn changes(&self, at: &Field, level: usize) -> Vec<(Field, DesignChange)> {
+    pub fn changes(&self, at: &Field, level: usize) -> Vec<PlacedChange> {
         match self {
             FactorLevels::Named(levels) => {
-                let at = at.key("Named").index(level).key("changes");
-                let changes = levels[level].changes.iter().enumerate();
-                changes.map(|(place, change)| (at.index(place), change.clone())).collect()
+                placed(&at.key("Named").index(level).key("changes"), &levels[level].changes)
             }
             FactorLevels::Values { file, path, values } => {
                 let (file, path, to) = (file.clone(), path.clone(), values[level]);
@@ -242,11 +257,7 @@ impl FactorLevels {
 impl Validate for ExperimentFile {
     fn validate(&self) -> Result<(), Fault> {
         ensure(!self.metrics.is_empty(), "metrics", || "needs at least one".into())?;
-        check_count("blocks.number", "the number of seeds", self.blocks.number as usize, 1..=BLOCKS)?;
-        let last = self.blocks.first.checked_add(self.blocks.number.into());
-        ensure(last.is_some_and(|last| last <= LARGEST_SEED), "blocks.first", || {
-            format!("seeds must be {LARGEST_SEED} at most")
-        })?;
+        self.blocks.check("blocks", BLOCKS)?;
         self.until.validate_as("until")?;
         check_changes(&self.common).map_err(|fault| fault.inside(&Field::root().key("common")))?;
         let mut names: Vec<&str> = Vec::new();

@@ -17,18 +17,20 @@ mod table;
 mod treatment;
 mod until;
 
-pub(in crate::lab) use claim::verdict;
 pub use claim::{ClaimVerdict, JudgedClaim};
+pub(in crate::lab) use claim::{telling, verdict};
 pub use figure_words::{MeanWithInterval, probability};
 pub use file::{
     ClaimedDifference, DesignChange, ExperimentFile, Factor, FactorLevels, NamedLevel, SeedBlocks,
     StatedClaim, UntilRule,
 };
+pub(in crate::lab) use file::{PlacedChange, placed};
 pub use metric::{MatchFigures, Metric};
 pub use pairing::PairedRows;
 pub use parquet::write_parquet;
 pub use plan::ExperimentPlan;
 pub use row::{ExperimentRow, MatchResult, RowKey};
+pub(in crate::lab) use row::{VERSION, check_version};
 pub use summary::{CONFIDENCE, ExperimentSummary, FigureSummary, TreatmentSummary};
 pub use table::{TableWriter, read_csv, write_csv};
-pub(in crate::lab) use treatment::{PlacedChange, TreatmentPlan, number_at};
+pub(in crate::lab) use treatment::{TreatmentPlan, number_at};

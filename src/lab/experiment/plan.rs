@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::file::ExperimentFile;
+use super::file::{ExperimentFile, PlacedChange, placed};
 use super::row::{ExperimentRow, RowKey};
-use super::treatment::{PlacedChange, TreatmentPlan};
+use super::treatment::TreatmentPlan;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 
 /// An experiment that can be played. Its matches are numbered seed by seed, so that the first rows of a table hold as many
@@ -118,9 +118,7 @@ impl ExperimentPlan {
 }
 
 fn changes(file: &ExperimentFile, levels: &[usize]) -> Vec<PlacedChange> {
-    let common = Field::root().key("common");
-    let mut changes: Vec<PlacedChange> =
-        file.common.iter().enumerate().map(|(place, change)| (common.index(place), change.clone())).collect();
+    let mut changes = placed(&Field::root().key("common"), &file.common);
     for (place, (factor, level)) in file.factors.iter().zip(levels).enumerate() {
         let at = Field::root().key("factors").index(place).key("levels");
         changes.extend(factor.levels.changes(&at, *level));

@@ -74,4 +74,12 @@ pub(super) fn columns<'a>(factors: impl Iterator<Item = &'a str>) -> Vec<String>
 }
 
 /// The version of the program that plays, as tables have it.
-pub(super) const VERSION: &str = env!("CARGO_PKG_VERSION");
+pub(in crate::lab) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Whether rows of this version may stand beside new ones.
+pub(in crate::lab) fn check_version(version: &str) -> Result<(), String> {
+    match version {
+        VERSION => Ok(()),
+        _ => Err(format!("was played by version {version}, and this is {VERSION}")),
+    }
+}

@@ -8,7 +8,7 @@ use csv::{ReaderBuilder, StringRecord, WriterBuilder};
 
 use super::metric::Metric;
 use super::plan::ExperimentPlan;
-use super::row::{AFTER, BEFORE, ExperimentRow, MatchResult, VERSION, columns};
+use super::row::{AFTER, BEFORE, ExperimentRow, MatchResult, VERSION, check_version, columns};
 use crate::data::DataError;
 
 /// The columns of a table of an experiment.
@@ -128,9 +128,7 @@ fn parse(plan: &ExperimentPlan, record: &StringRecord) -> Result<ExperimentRow, 
     let [strategy, opponent, version, assets, digest, error, seconds, played] = after else {
         return Err("has too few fields".into());
     };
-    if *version != VERSION {
-        return Err(format!("was played by version {version}, and this is {VERSION}"));
-    }
+    check_version(version)?;
     let hash = |text: &str| u64::from_str_radix(text, 16).map_err(|_| format!("no hash: {text}"));
     let assets = hash(assets)?;
     if assets != plan.assets_hash(key.treatment) {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use xxhash_rust::xxh3::Xxh3;
 
-use super::file::DesignChange;
+use super::file::{DesignChange, PlacedChange};
 use super::metric::{MatchFigures, Metric};
 use super::row::MatchResult;
 use crate::data::{
@@ -19,9 +19,6 @@ use crate::game::{Choice, Match, MatchPlan, file_named};
 use crate::ids::Team;
 use crate::lab::scenario::{Dependency, TimedEvent, check_event_of_match, has, requests, switch_off};
 use crate::strategy::Strategy;
-
-/// What is changed of a match, and where the design says so.
-pub(in crate::lab) type PlacedChange = (Field, DesignChange);
 
 /// A treatment that can be played.
 #[derive(Clone, Debug)]

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::data::{Fault, Field, Validate, check_count, ensure};
 use crate::lab::experiment::{ClaimedDifference, DesignChange, Metric, SeedBlocks};
-use crate::rng::LARGEST_SEED;
 
 /// Which numbers are to be found, by which matches they are judged, and what they may not break.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -98,8 +97,8 @@ impl Validate for TuningFile {
         check_count("parameters", "the number of parameters", self.parameters.len(), 1..=MOST)?;
         check_count("candidates", "the number of candidates", self.candidates as usize, 2..=MOST)?;
         check_count("races", "the number of races", self.races as usize, 1..=MOST)?;
-        check_seeds("training", self.training)?;
-        check_seeds("held_out", self.held_out)?;
+        self.training.check("training", SEEDS)?;
+        self.held_out.check("held_out", SEEDS)?;
         let apart = self.training.first + u64::from(self.training.number) <= self.held_out.first
             || self.held_out.first + u64::from(self.held_out.number) <= self.training.first;
         ensure(apart, "held_out.first", || "seeds that judge must not be seeds of the training".into())?;
@@ -130,14 +129,6 @@ impl TuningFile {
     fn place_of(&self, name: &str) -> Option<usize> {
         self.parameters.iter().position(|parameter| parameter.name == name)
     }
-}
-
-fn check_seeds(field: &str, seeds: SeedBlocks) -> Result<(), Fault> {
-    check_count(&format!("{field}.number"), "the number of seeds", seeds.number as usize, 1..=SEEDS)?;
-    let last = seeds.first.checked_add(seeds.number.into());
-    ensure(last.is_some_and(|last| last <= LARGEST_SEED), &format!("{field}.first"), || {
-        format!("seeds must be {LARGEST_SEED} at most")
-    })
 }
 
 impl Validate for TunedParameter {

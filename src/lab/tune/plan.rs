@@ -8,7 +8,7 @@ use super::race::ParameterSpace;
 use super::row::TuningRow;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, with_number};
 use crate::lab::all_cores::on_all_cores;
-use crate::lab::experiment::{DesignChange, PlacedChange, TreatmentPlan, number_at};
+use crate::lab::experiment::{DesignChange, PlacedChange, TreatmentPlan, VERSION, number_at, placed};
 
 /// A tuning that can be played.
 #[derive(Clone, Debug)]
@@ -144,7 +144,7 @@ impl TuningPlan {
             candidate: candidate.number,
             seed,
             swapped,
-            version: env!("CARGO_PKG_VERSION").into(),
+            version: VERSION.into(),
             assets: candidate.assets_hash(),
             digest: played
                 .as_ref()
@@ -202,9 +202,7 @@ fn value(assets: &AssetFolder, number: &TunedNumber) -> Result<f64, (&'static st
 }
 
 fn changes(file: &TuningFile, values: Option<&[f64]>) -> Vec<PlacedChange> {
-    let common = Field::root().key("common");
-    let mut changes: Vec<PlacedChange> =
-        file.common.iter().enumerate().map(|(place, change)| (common.index(place), change.clone())).collect();
+    let mut changes = placed(&Field::root().key("common"), &file.common);
     for (place, (parameter, to)) in file.parameters.iter().zip(values.unwrap_or_default()).enumerate() {
         let at = Field::root().key("parameters").index(place).key("at");
         changes.extend(parameter.at.iter().enumerate().map(|(place, TunedNumber { file, path })| {

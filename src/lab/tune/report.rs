@@ -1,15 +1,16 @@
 //! What a tuning has come to, on the seeds of the training and on those that were held out.
 
-use std::fmt::{self, Display, Formatter};
-
 use serde::Serialize;
 
 use super::file::{BetterValue, TuningObjective};
 use super::plan::TuningPlan;
 use super::race::RaceEntrant;
 use super::row::KnownMatches;
-use crate::lab::experiment::{ClaimVerdict, SeedBlocks, verdict};
-use crate::lab::statistics::{PairedDifference, compare_pairs, mean};
+use crate::lab::experiment::{
+    CONFIDENCE, ClaimVerdict, MeanWithInterval, SeedBlocks, probability, telling, verdict,
+};
+use crate::lab::report::{ReportBlock, ReportDocument, ReportTable};
+use crate::lab::statistics::{PairedDifference, compare_pairs};
 use crate::rng::{DEFAULT_SEED, Seed};
 
 /// What a tuning has come to.
@@ -43,15 +44,13 @@ pub struct TunedValue {
     pub tuned: f64,
 }
 
-const CONFIDENCE: f64 = 0.95;
-
 impl TuningReport {
     /// Compares the winner with the values of before by the matches that are known.
     pub fn of(plan: &TuningPlan, winner: &RaceEntrant, known: &KnownMatches) -> TuningReport {
         let compared = |seeds: SeedBlocks| {
             let differences: Vec<f64> = seeds
                 .seeds()
-                .filter_map(|seed| Some(value(known, winner.number, seed)? - value(known, 0, seed)?))
+                .filter_map(|seed| Some(known.value(winner.number, seed)? - known.value(0, seed)?))
                 .collect();
             compare_pairs(&differences, CONFIDENCE, Seed(DEFAULT_SEED))
         };
@@ -70,7 +69,7 @@ impl TuningReport {
             training: compared(plan.file.training),
             better: verdict(
                 plan.file.objective.better.claim(),
-                held_out.as_ref().and_then(|difference| difference.interval),
+                held_out.as_ref().and_then(|difference| telling(difference.pairs, difference.interval)),
             ),
             held_out,
             matches: known.len(),
@@ -79,65 +78,53 @@ impl TuningReport {
 }
 
 impl TuningReport {
-    /// What stands above the tuned values in their files.
+    /// What stands above the tuned values in their files: one line.
     pub fn comment(&self) -> String {
         let held_out = self.held_out.as_ref().map_or(String::new(), |difference| {
-            let interval =
-                difference.interval.map_or(String::new(), |it| format!(" [{:.3}, {:.3}]", it.low, it.high));
-            format!(
-                "; held out, {} seeds: {:.3}{interval} of {}",
-                difference.pairs,
-                difference.mean,
-                self.objective.metric.column()
-            )
+            let (seeds, column) = (difference.pairs, self.objective.metric.column());
+            format!("; held out, {seeds} seeds: {} of {column}", mean_of(difference))
         });
         let names: Vec<&str> = self.values.iter().map(|value| value.parameter.as_str()).collect();
-        format!("// Fitted by `touchline tune` ({}): {}{held_out}.\n", self.name, names.join(", "))
+        let text = format!("// Fitted by `touchline tune` ({}): {}{held_out}.", self.name, names.join(", "));
+        text.split_whitespace().collect::<Vec<_>>().join(" ") + "\n"
     }
-}
 
-/// The value of a candidate with a seed: the mean of both sides.
-fn value(known: &KnownMatches, candidate: usize, seed: u64) -> Option<f64> {
-    let sides = [false, true].map(|swapped| known.get(candidate, seed, swapped)?.value);
-    mean(&[sides[0]?, sides[1]?])
-}
-
-impl Display for TuningReport {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let metric = self.objective.metric;
-        writeln!(f, "# {}\n", self.name)?;
-        writeln!(f, "{} of {}, {} matches.\n", word(self.objective), metric.column(), self.matches)?;
-        writeln!(f, "| parameter | before | tuned |\n|---|---|---|")?;
-        for TunedValue { parameter, before, tuned } in &self.values {
-            writeln!(f, "| {parameter} | {before} | {tuned} |")?;
-        }
-        writeln!(
-            f,
-            "\n| tuned less before, {} | seeds | mean | interval of 95 % | p (Wilcoxon) |\n|---|---|---|---|---|",
-            metric.column()
-        )?;
-        for (name, difference) in
-            [("training (chose the winner)", &self.training), ("held out", &self.held_out)]
-        {
-            let Some(difference) = difference else { continue };
-            let interval = difference
-                .interval
-                .map_or("-".into(), |interval| format!("{:.3} to {:.3}", interval.low, interval.high));
-            let p = difference.signed_rank.as_ref().map_or("-".into(), |test| format!("{:.3}", test.p));
-            writeln!(f, "| {name} | {} | {:.3} | {interval} | {p} |", difference.pairs, difference.mean)?;
-        }
+    /// As text.
+    pub fn document(&self) -> ReportDocument {
+        let column = self.objective.metric.column();
+        let most = match self.objective.better {
+            BetterValue::More => "The most",
+            BetterValue::Less => "The least",
+        };
         let verdict = match self.better {
             ClaimVerdict::Held => "the tuned values are better",
             ClaimVerdict::DidNotHold => "the tuned values are worse",
-            ClaimVerdict::CannotBeSaid => "cannot be said: the interval holds 0, or there is none",
+            ClaimVerdict::CannotBeSaid => "cannot be said: the interval holds 0, or the seeds are too few",
         };
-        writeln!(f, "\nBy the seeds that were held out: {verdict}.")
+        let values = self.values.iter().map(|TunedValue { parameter, before, tuned }| {
+            vec![parameter.clone(), before.to_string(), tuned.to_string()]
+        });
+        let compared = [("training (chose the winner)", &self.training), ("held out", &self.held_out)];
+        let compared = compared.into_iter().filter_map(|(name, difference)| {
+            let difference = difference.as_ref()?;
+            let p = difference.signed_rank.as_ref().map_or("-".into(), |test| probability(test.p));
+            let mean = mean_of(difference).to_string();
+            Some(vec![name.to_owned(), difference.pairs.to_string(), mean, p])
+        });
+        let blocks = vec![
+            ReportBlock::Text(format!("{most} of {column}, {} matches.", self.matches)),
+            table(["parameter", "before", "tuned"], values.collect()),
+            table([&format!("tuned less before, {column}"), "seeds", "mean [95 %]", "p"], compared.collect()),
+            ReportBlock::Text(format!("By the seeds that were held out: {verdict}.")),
+        ];
+        ReportDocument { title: self.name.clone(), blocks }
     }
 }
 
-fn word(objective: TuningObjective) -> &'static str {
-    match objective.better {
-        BetterValue::More => "The most",
-        BetterValue::Less => "The least",
-    }
+fn mean_of(difference: &PairedDifference) -> MeanWithInterval {
+    MeanWithInterval { value: Some(difference.mean), interval: difference.interval }
+}
+
+fn table<const N: usize>(head: [&str; N], rows: Vec<Vec<String>>) -> ReportBlock {
+    ReportBlock::Table(ReportTable { head: head.map(str::to_owned).into(), rows, words: 1 })
 }

@@ -7,6 +7,8 @@ use csv::{ReaderBuilder, WriterBuilder};
 use serde::{Deserialize, Serialize};
 
 use crate::data::DataError;
+use crate::lab::experiment::check_version;
+use crate::lab::statistics::mean;
 
 /// One match.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,13 +47,7 @@ impl KnownMatches {
             let fault =
                 |message: String| DataError { line: Some(place + 2), ..DataError::new(path, message) };
             let row: TuningRow = row.map_err(|error| fault(error.to_string()))?;
-            if row.version != env!("CARGO_PKG_VERSION") {
-                return Err(fault(format!(
-                    "was played by version {}, and this is {}",
-                    row.version,
-                    env!("CARGO_PKG_VERSION")
-                )));
-            }
+            check_version(&row.version).map_err(fault)?;
             known.add(row);
         }
         Ok(known)
@@ -75,6 +71,12 @@ impl KnownMatches {
     /// A match, if it is known.
     pub fn get(&self, candidate: usize, seed: u64, swapped: bool) -> Option<&TuningRow> {
         self.0.get(&(candidate, seed, swapped))
+    }
+
+    /// The value of a candidate with a seed, if both matches are known and whole: their mean.
+    pub fn value(&self, candidate: usize, seed: u64) -> Option<f64> {
+        let sides = [false, true].map(|swapped| self.get(candidate, seed, swapped)?.value);
+        mean(&[sides[0]?, sides[1]?])
     }
 
     /// How many there are.

@@ -41,7 +41,6 @@ impl TuneCommand {
         let mut stage = Stage::new(&plan, &folder, known);
         let found = quietly(|| stage.search());
         stage.bar.finish_and_clear();
-        folder.keep(&stage.known)?;
         match found {
             Ok(winner) => self.tell(&plan, &folder, &winner, &stage.known, out),
             Err(Stopped::Interrupted) => {
@@ -62,7 +61,8 @@ impl TuneCommand {
         out: &mut impl Write,
     ) -> Result<Ending, CommandError> {
         let report = TuningReport::of(plan, winner, known);
-        folder.write("report.md", report.to_string().as_bytes())?;
+        let text = report.document().to_markdown();
+        folder.write("report.md", text.as_bytes())?;
         if winner.number != 0 {
             for (name, text) in plan.files(&winner.values)? {
                 folder.write(&name, [&report.comment(), text.as_str()].concat().as_bytes())?;
@@ -71,7 +71,7 @@ impl TuneCommand {
         match self.json {
             true => print_json(&report, out)?,
             false => {
-                write!(out, "{report}")?;
+                write!(out, "{text}")?;
                 match winner.number {
                     0 => writeln!(out, "No candidate was better than the values of before.")?,
                     _ => {
@@ -139,10 +139,8 @@ impl<'a> Stage<'a> {
     /// The scores of each entrant on each seed, as means of both sides; none for one of which a match broke off.
     fn scores(&mut self, entrants: &[RaceEntrant], seeds: &[u64]) -> Result<Vec<Option<Vec<f64>>>, Stopped> {
         self.play(entrants, seeds)?;
-        let score = |entrant: &RaceEntrant, seed: u64| {
-            let side = |swapped| self.known.get(entrant.number, seed, swapped)?.value;
-            Some(self.plan.score((side(false)? + side(true)?) / 2.0))
-        };
+        let score =
+            |entrant: &RaceEntrant, seed: u64| Some(self.plan.score(self.known.value(entrant.number, seed)?));
         let of = |entrant| seeds.iter().map(|seed| score(entrant, *seed)).collect();
         Ok(entrants.iter().map(of).collect())
     }
@@ -165,6 +163,9 @@ impl<'a> Stage<'a> {
                     }
                 }
             }
+        }
+        if missing.is_empty() {
+            return Ok(());
         }
         self.bar.inc_length(missing.len() as u64);
         let (known, bar, interrupt) = (&mut self.known, &self.bar, &self.interrupt);
