@@ -121,9 +121,10 @@ pub fn wrap_angle(angle: f32) -> f32 {
 }
 
 /// Which way a team attacks: the turn between the pitch frame and its team frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, Reflect)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, Reflect)]
 pub enum Attacking {
-    /// Towards positive x.
+    /// Towards positive x, as home does at the start.
+    #[default]
     East,
     /// Towards negative x.
     West,

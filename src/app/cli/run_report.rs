@@ -12,7 +12,7 @@ use crate::game::net::chaos::ChaosFigures;
 use crate::game::net::{self, CarrierFigures, RemoteFigures, UdpCarrier};
 use crate::game::record::{
     AGGLOMERATION, BallOverlap, BookingFigures, CROWD, ContactTotal, GripFigures, HoldFigures, KickFigures,
-    LooseBalls, Pursuit, Removals, RobotContacts,
+    LooseBalls, Pursuit, Removals, RobotContacts, RoleCover,
 };
 use crate::game::{Match, MatchPlan};
 use crate::ids::Team;
@@ -50,6 +50,8 @@ pub(super) struct RunReport {
     removals: Removals,
     /// How long robots kept their roles.
     roles: [HoldFigures<usize>; 2],
+    /// For how long roles had nobody, or more robots than they should.
+    role_cover: [RoleCover; 2],
     /// How long robots kept the states of their machines.
     states: [HoldFigures<(usize, usize)>; 2],
     /// How deep the ball has sunk into robots and walls.
@@ -199,6 +201,7 @@ impl RunReport {
             falls: record.falls,
             removals: record.removals.clone(),
             roles: record.roles.clone(),
+            role_cover: record.role_cover,
             states: record.states.clone(),
             overlap: record.overlap,
             driven: Team::BOTH.map(|team| record.driven_by(team)),

@@ -13,6 +13,7 @@ use super::places::PlaceFigures;
 use super::play_tick::PlayTick;
 use super::pursuit::Pursuit;
 use super::removals::Removals;
+use super::role_cover::RoleCover;
 use crate::ids::{RobotId, Team};
 use crate::rng::Seed;
 
@@ -46,6 +47,8 @@ pub struct Record {
     pub removals: Removals,
     /// How long robots kept their roles, by index.
     pub roles: [HoldFigures<usize>; 2],
+    /// For how long roles had nobody, or more robots than they should.
+    pub role_cover: [RoleCover; 2],
     /// How long robots kept the states of their machines, by indices of role and state.
     pub states: [HoldFigures<(usize, usize)>; 2],
     /// How deep the ball has sunk into robots and walls.
@@ -77,6 +80,7 @@ impl Record {
             falls: [0; 2],
             removals: Removals::default(),
             roles: Default::default(),
+            role_cover: Default::default(),
             states: Default::default(),
             overlap: BallOverlap::default(),
             played: 0.0,
@@ -85,7 +89,8 @@ impl Record {
         }
     }
 
-    pub(super) fn update(&mut self, tick: &PlayTick) {
+    /// `at_kick_off` has the indices of the roles of all players of each team.
+    pub(super) fn update(&mut self, tick: &PlayTick, at_kick_off: [&[usize]; 2]) {
         self.played += tick.dt;
         self.note_possession(tick);
         self.note_ways(tick);
@@ -96,6 +101,7 @@ impl Record {
         for team in Team::BOTH {
             let i = team.index();
             self.pursuit[i].update(team, tick);
+            self.role_cover[i].update(team, at_kick_off[i], tick);
             if !tick.events.is_empty() {
                 self.kicks[i].update(team, &tick.events);
                 self.grips[i].update(team, &tick.events);
@@ -114,6 +120,7 @@ impl Record {
         self.pursuit.iter_mut().for_each(Pursuit::interrupt);
         self.roles.iter_mut().for_each(HoldFigures::interrupt);
         self.states.iter_mut().for_each(HoldFigures::interrupt);
+        self.role_cover.iter_mut().for_each(RoleCover::interrupt);
     }
 
     fn note_possession(&mut self, tick: &PlayTick) {

@@ -14,6 +14,8 @@ mod places;
 mod play_tick;
 mod pursuit;
 mod removals;
+mod replacement;
+mod role_cover;
 mod span;
 #[cfg(test)]
 mod tests;
@@ -36,6 +38,8 @@ pub use places::PlaceFigures;
 use play_tick::PlayView;
 pub use pursuit::{FARTHER, PING_PONG, Pursuit};
 pub use removals::Removals;
+pub use replacement::Replacement;
+pub use role_cover::RoleCover;
 pub use span::Span;
 pub use trace::{DigestPart, TickTrace, TraceDifference};
 
@@ -65,7 +69,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 fn measure(
-    (clock, state, calls): (Res<Clock>, Res<MatchState>, Res<Calls>),
+    (clock, state, calls, strategies): (Res<Clock>, Res<MatchState>, Res<Calls>, Res<Strategies>),
     mut record: ResMut<Record>,
     view: PlayView,
 ) {
@@ -75,9 +79,9 @@ fn measure(
     }
     let mut tick = view.tick();
     (tick.now, tick.dt) = (record.played, f64::from(clock.dt));
-    tick.ball_ahead = state.home_attacks.turn(tick.ball).x;
+    tick.home_attacks = state.home_attacks;
     tick.ball_is_put = calls.0.iter().any(|call| matches!(call, Decision::BallPlaced { .. }));
-    record.update(&tick);
+    record.update(&tick, Team::BOTH.map(|team| strategies.of(team).players.as_slice()));
 }
 
 type BookingView<'a> = (&'a RobotId, &'a Robot, &'a WorldModel, &'a Booking, &'a Orders);

@@ -1,6 +1,6 @@
 //! Where play takes place: on whose side the ball is, and how far team mates are from each other.
 
-use super::play_tick::PlayTick;
+use super::play_tick::{PlayTick, PlayerTick};
 use crate::ids::Team;
 
 /// Where the ball and the robots were.
@@ -8,6 +8,8 @@ use crate::ids::Team;
 pub struct PlaceFigures {
     /// How far the ball was from the centre towards the goal that home attacks, summed over time, m s.
     ball_ahead: f64,
+    /// For how long fewer than two robots were on their own goal's side of the ball, s; home first.
+    undefended: [f64; 2],
     /// From each robot to its nearest team mate summed over time, m s; home first.
     to_mates: [f64; 2],
     /// The time of all robots that had a team mate, s.
@@ -16,8 +18,13 @@ pub struct PlaceFigures {
 
 impl PlaceFigures {
     pub(super) fn update(&mut self, tick: &PlayTick) {
-        self.ball_ahead += f64::from(tick.ball_ahead) * tick.dt;
+        self.ball_ahead += f64::from(tick.ahead(Team::Home, tick.ball)) * tick.dt;
         for team in Team::BOTH {
+            let ball = tick.ahead(team, tick.ball);
+            let is_behind = |player: &&PlayerTick| player.plays && tick.ahead(team, player.position) < ball;
+            if tick.of(team).filter(is_behind).count() < 2 {
+                self.undefended[team.index()] += tick.dt;
+            }
             for player in tick.of(team) {
                 let mates = tick.of(team).filter(|mate| mate.id != player.id);
                 let nearest =
@@ -36,6 +43,12 @@ impl PlaceFigures {
             Team::Home => self.ball_ahead,
             Team::Away => -self.ball_ahead,
         }
+    }
+
+    /// For how long fewer than two robots of a team that played, such as a goalie and a defender, were nearer to their own goal line
+    /// than the ball was, s.
+    pub fn undefended(&self, team: Team) -> f64 {
+        self.undefended[team.index()]
     }
 
     /// The mean distance from a robot of the team to its nearest team mate, m; 0 if it never had one.
@@ -59,10 +72,22 @@ mod tests {
     }
 
     #[test]
+    fn two_robots_behind_the_ball_defend_and_one_that_is_off_does_not() {
+        let undefended = |second: PlayerTick| {
+            let mut places = PlaceFigures::default();
+            places.update(&tick(&[player(HOME_1, -1.0, 0.0), second, player(AWAY_1, 1.0, 0.0)]));
+            Team::BOTH.map(|team| places.undefended(team) > 0.0)
+        };
+        assert_eq!(undefended(player(HOME_2, -2.0, 2.0)), [false, true]);
+        assert_eq!(undefended(player(HOME_2, 0.1, 0.0)), [true, true]);
+        assert_eq!(undefended(PlayerTick { plays: false, ..player(HOME_2, -2.0, 2.0) }), [true, true]);
+    }
+
+    #[test]
     fn the_ball_is_in_the_territory_of_the_team_that_it_is_near_the_goal_of() {
         let mut places = PlaceFigures::default();
         let mut tick = tick(&[]);
-        tick.ball_ahead = -2.0;
+        tick.ball.x = -2.0;
         places.update(&tick);
         assert!((places.territory(Team::Home) + 0.2).abs() < 1e-6);
         assert_eq!(places.territory(Team::Away), -places.territory(Team::Home));

@@ -6,7 +6,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use crate::geometry::{Pose, Twist};
+use crate::geometry::{Attacking, Pose, Twist};
 use crate::ids::{RobotId, Team};
 use crate::robot::handling::Handling;
 use crate::robot::{DriveCommand, OffPitch, Orders, Robot, RobotState};
@@ -22,8 +22,8 @@ pub(super) struct PlayTick {
     /// Length of the tick, s.
     pub dt: f64,
     pub ball: Vec2,
-    /// How far the ball is from the centre towards the goal that home attacks, m.
-    pub ball_ahead: f32,
+    /// Where home's goal to attack is.
+    pub home_attacks: Attacking,
     pub ball_velocity: Vec2,
     /// Whether the referee has put the ball somewhere.
     pub ball_is_put: bool,
@@ -61,6 +61,15 @@ pub(super) struct PlayerTick {
 }
 
 impl PlayTick {
+    /// How far a point is from the centre towards the goal that a team attacks, m.
+    pub fn ahead(&self, team: Team, point: Vec2) -> f32 {
+        let home = self.home_attacks.turn(point).x;
+        match team {
+            Team::Home => home,
+            Team::Away => -home,
+        }
+    }
+
     /// The robots of a team that are on the pitch.
     pub fn of(&self, team: Team) -> impl Iterator<Item = &PlayerTick> {
         self.players.iter().filter(move |player| player.id.team == team)

@@ -6,6 +6,7 @@ use serde::Serialize;
 use smallvec::SmallVec;
 
 use super::play_tick::{PlayTick, PlayerTick};
+use super::replacement::Replacement;
 use super::span::Span;
 use crate::ids::{PlayerNumber, Team};
 
@@ -24,6 +25,8 @@ pub struct Pursuit {
     pub takeovers: u64,
     /// Takeovers back to the robot before within [`PING_PONG`].
     pub alternations: u64,
+    /// How soon one that went out of play was replaced.
+    pub replacement: Replacement,
     /// Until when each robot counts as driving at the ball, by its number, s of play.
     #[serde(skip)]
     until: SmallVec<[f64; 8]>,
@@ -57,6 +60,7 @@ const HOLD: f64 = 0.5;
 
 impl Pursuit {
     pub(super) fn update(&mut self, team: Team, tick: &PlayTick) {
+        let before = self.only();
         self.driving.clear();
         let (mut goer, mut nearest_other) = (None, f32::INFINITY);
         for player in tick.players.iter().filter(|player| player.id.team == team && player.plays) {
@@ -68,6 +72,13 @@ impl Pursuit {
             }
         }
         let going = self.driving.len();
+        let is_gone = |number| !tick.of(team).any(|it| it.plays && it.id.number == number);
+        if before.is_some_and(is_gone) {
+            self.replacement.miss(tick.now);
+        }
+        if going > 0 {
+            self.replacement.drive(tick.now);
+        }
         let only = goer.filter(|_| going == 1);
         self.nobody.update(going == 0, tick.dt);
         self.one.update(going == 1, tick.dt);
@@ -83,6 +94,7 @@ impl Pursuit {
         self.until.clear();
         self.driving.clear();
         self.last = [None; 2];
+        self.replacement.interrupt();
         for span in [&mut self.nobody, &mut self.one, &mut self.several, &mut self.farther] {
             span.update(false, 0.0);
         }
@@ -91,6 +103,14 @@ impl Pursuit {
     /// Whether a robot drives at the ball, as of the last tick.
     pub fn drives(&self, number: PlayerNumber) -> bool {
         self.driving.contains(&number)
+    }
+
+    /// The robot that alone drove at the ball, as of the last tick.
+    fn only(&self) -> Option<PlayerNumber> {
+        match self.driving.as_slice() {
+            [number] => Some(*number),
+            _ => None,
+        }
     }
 
     /// Whether a robot drives at the ball, or did a moment ago.
@@ -228,6 +248,23 @@ mod tests {
             run(&mut now, tenths, &tick(&[robot]), |tick| pursuit.update(Team::Home, tick));
         }
         assert_eq!((pursuit.takeovers, pursuit.alternations), (4, 1));
+    }
+
+    #[test]
+    fn who_drove_alone_and_went_out_of_play_is_replaced_sooner_or_later() {
+        let (mut pursuit, mut now) = (Pursuit::default(), 0.0);
+        let (one, other) = (told(HOME_1, (-1.0, 0.0), (0.3, 0.0)), told(HOME_2, (1.0, 0.0), (-0.3, 0.0)));
+        let stands = player(HOME_2, 1.0, 0.0);
+        let off = PlayerTick { plays: false, ..one };
+        for (tenths, robots) in
+            [(10, [one, stands]), (12, [off, stands]), (10, [off, other]), (9, [one, stands])]
+        {
+            run(&mut now, tenths, &tick(&robots), |tick| pursuit.update(Team::Home, tick));
+        }
+        let Replacement { number, seconds, longest, .. } = pursuit.replacement;
+        assert_eq!((number, (seconds * 10.0).round(), longest), (1, 12.0, seconds));
+        run(&mut now, 5, &tick(&[off, other]), |tick| pursuit.update(Team::Home, tick));
+        assert_eq!((pursuit.replacement.number, pursuit.replacement.seconds), (2, seconds), "at once");
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! What is measured of a match: each figure with its name, its unit and one sentence that says what it is.
 
+use bevy::prelude::World;
 use serde::{Deserialize, Serialize};
 
 use crate::comms::radio::{LinkCounters, RadioRecord};
 use crate::game::Match;
 use crate::game::record::{AGGLOMERATION, CROWD, Record};
-use crate::ids::Team;
+use crate::ids::{RobotId, Team};
+use crate::mind::teamwork::{SwapAttempts, Swapping};
 use crate::world::referee::RemovalReason;
 
 /// What the figures are taken from.
@@ -15,13 +17,27 @@ pub struct MatchFigures<'a> {
     radio: &'a RadioRecord,
     /// Home first.
     score: [u32; 2],
+    /// What became of the role swaps that robots have begun, home first.
+    swaps: [SwapFigures; 2],
+    /// Length of a tick, s.
+    dt: f64,
+}
+
+/// The role swaps of a team, as those who began them know.
+#[derive(Clone, Copy, Default)]
+struct SwapFigures {
+    begun: f64,
+    completed: f64,
+    /// Of those that were completed, in ticks.
+    ticks: f64,
 }
 
 impl<'a> MatchFigures<'a> {
     /// Those of a match so far.
     pub fn of(game: &'a Match) -> MatchFigures<'a> {
         let radio = game.world().resource::<RadioRecord>();
-        MatchFigures { record: game.record(), radio, score: game.state().score }
+        let (swaps, dt) = (swaps(game.world()), game.clock().dt.into());
+        MatchFigures { record: game.record(), radio, score: game.state().score, swaps, dt }
     }
 
     /// A part of the time of play.
@@ -48,7 +64,26 @@ impl<'a> MatchFigures<'a> {
 
 /// Of nothing it is 0.
 fn ratio(part: f64, whole: f64) -> f64 {
-    if whole > 0.0 { part / whole } else { 0.0 }
+    some_ratio(part, whole).unwrap_or(0.0)
+}
+
+/// Of nothing there is none.
+fn some_ratio(part: f64, whole: f64) -> Option<f64> {
+    (whole > 0.0).then(|| part / whole)
+}
+
+fn swaps(world: &World) -> [SwapFigures; 2] {
+    let mut swaps = [SwapFigures::default(); 2];
+    if let Some(mut robots) = world.try_query::<(&RobotId, &Swapping)>() {
+        for (id, swapping) in robots.iter(world) {
+            let (SwapAttempts { begun, completed, ticks, .. }, of) =
+                (swapping.attempts, &mut swaps[id.team.index()]);
+            of.begun += f64::from(begun);
+            of.completed += f64::from(completed);
+            of.ticks += count(ticks);
+        }
+    }
+    swaps
 }
 
 /// As a double, which holds every count of a match.
@@ -84,12 +119,12 @@ macro_rules! metrics {
                 match self { $(Metric::$name => $says,)* }
             }
 
-            /// Its value for a team.
-            pub fn value(self, figures: MatchFigures, team: Team) -> f64 {
+            /// Its value for a team, if the match has one: what never happened did not take any time.
+            pub fn value(self, figures: MatchFigures, team: Team) -> Option<f64> {
                 match self {
                     $(Metric::$name => {
                         let ($figures, $team) = (figures, team);
-                        $value
+                        Option::<f64>::from($value)
                     })*
                 }
             }
@@ -98,9 +133,9 @@ macro_rules! metrics {
 }
 
 metrics! {
-    Goals "goals" [""] "Goals that the team scored." (m, team) m.score[team.index()].into();
+    Goals "goals" [""] "Goals that the team scored." (m, team) f64::from(m.score[team.index()]);
     GoalsAgainst "goals_against" [""] "Goals that the other team scored." (m, team) {
-        m.score[team.opponent().index()].into()
+        f64::from(m.score[team.opponent().index()])
     };
     GoalDifference "goal_difference" [""] "Its goals less those against it." (m, team) m.goals_ahead(team);
     Points "points" [""] "1 for a match that it won, a half for a draw." (m, team) {
@@ -111,6 +146,8 @@ metrics! {
     Territory "territory" ["m"] "Where the ball was in the mean, towards the goal that the team attacks." (m, team) {
         m.share(m.record.places.territory(team))
     };
+    Undefended "undefended" [""] "Share of play in which fewer than two of its robots were on their goal's side of the ball." (m, team)
+        m.share(m.record.places.undefended(team));
     Crowding "crowding" [""] "Share of play with two or more of its robots within a metre of the ball." (m, team)
         m.share(m.record.crowding.seconds(CROWD)[team.index()]);
     Agglomeration "agglomeration" [""] "Share of play with two or more of its robots within half a metre of the ball." (m, team)
@@ -135,6 +172,10 @@ metrics! {
         m.per_minute(count(m.record.pursuit[team.index()].takeovers));
     Alternations "alternations" ["1/min"] "Takeovers back to the robot before within 3 s, for a minute of play." (m, team)
         m.per_minute(count(m.record.pursuit[team.index()].alternations));
+    ReplacementTime "replacement_time" ["s"] "How long nobody drove at the ball after the only one that did was switched off or taken off." (m, team) {
+        let replacement = &m.record.pursuit[team.index()].replacement;
+        some_ratio(replacement.seconds, replacement.number.into())
+    };
     BelievedNobody "believed_nobody" [""] "Share of play in which a robot of a booking team knew the ball and none believed to go." (m, team)
         m.share(m.record.bookings[team.index()].nobody_goes.total);
     BelievedNobodyLongest "believed_nobody_longest" ["s"] "Longest time in which a robot knew the ball and none believed to go." (m, team)
@@ -153,12 +194,26 @@ metrics! {
         m.per_minute(m.record.grips[team.index()].caught);
     BallsSlipped "balls_slipped" ["1/min"] "Balls that its chins lost to others, for a minute of play." (m, team)
         m.per_minute(m.record.grips[team.index()].slipped);
-    Falls "falls" [""] "How often its robots fell." (m, team) m.record.falls[team.index()].into();
+    Falls "falls" [""] "How often its robots fell." (m, team) f64::from(m.record.falls[team.index()]);
     RoleChanges "role_changes" ["1/min"] "How often its robots changed their role, for a minute of play." (m, team)
         m.per_minute(count(m.record.roles[team.index()].changes));
     RoleHold "role_hold" ["s"] "How long its robots kept a role in the mean." (m, team) m.record.roles[team.index()].mean;
     RoleOscillations "role_oscillations" ["1/min"] "Role changes that went back within 3 s, for a minute of play." (m, team)
         m.per_minute(count(m.record.roles[team.index()].oscillations));
+    RoleVacant "role_vacant" [""] "Share of play in which a role of the kick-off was played by nobody." (m, team)
+        m.share(m.record.role_cover[team.index()].vacant.total);
+    RoleVacantLongest "role_vacant_longest" ["s"] "Longest time in which a role of the kick-off was played by nobody." (m, team)
+        m.record.role_cover[team.index()].vacant.longest;
+    RoleDoubled "role_doubled" [""] "Share of play in which more robots played a role than at the kick-off." (m, team)
+        m.share(m.record.role_cover[team.index()].doubled.total);
+    RoleDoubledLongest "role_doubled_longest" ["s"] "Longest time in which more robots played a role than at the kick-off." (m, team)
+        m.record.role_cover[team.index()].doubled.longest;
+    SwapsBegun "swaps_begun" ["1/min"] "Role swaps that its robots began, for a minute of play." (m, team)
+        m.per_minute(m.swaps[team.index()].begun);
+    SwapsCompleted "swaps_completed" [""] "Share of them that their initiators saw acknowledged by all." (m, team)
+        some_ratio(m.swaps[team.index()].completed, m.swaps[team.index()].begun);
+    SwapTime "swap_time" ["s"] "How long those took in the mean, from the first LOCK to the last ACKSWAP." (m, team)
+        some_ratio(m.swaps[team.index()].ticks * m.dt, m.swaps[team.index()].completed);
     StateChanges "state_changes" ["1/min"] "How often its robots changed the state of their machine, for a minute." (m, team)
         m.per_minute(count(m.record.states[team.index()].changes));
     StateOscillations "state_oscillations" ["1/min"] "State changes that went back within 3 s, for a minute of play." (m, team)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::metric::Metric;
 use super::plan::ExperimentPlan;
-use super::row::ExperimentRow;
+use super::row::{ExperimentRow, MatchResult};
 use crate::lab::statistics::mean;
 
 /// The rows of an experiment by treatment.
@@ -23,16 +23,29 @@ impl<'a> PairedRows<'a> {
         PairedRows { treatments, sides: plan.sides() }
     }
 
-    /// The value of a metric with each seed, if its matches are all there and whole.
+    /// How many seeds have all their matches, and whole.
+    pub fn seeds(&self, treatment: usize) -> usize {
+        self.whole(treatment).len()
+    }
+
+    /// The value of a metric with each seed that has all its matches: the mean of those matches that have one.
     pub fn values(&self, treatment: usize, metric: Metric) -> BTreeMap<u64, f64> {
-        let mut values: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+        let of_seed = |matches: Vec<&MatchResult>| {
+            mean(&matches.into_iter().filter_map(|result| result.value(metric)).collect::<Vec<_>>())
+        };
+        let whole = self.whole(treatment).into_iter();
+        whole.filter_map(|(seed, matches)| Some((seed, of_seed(matches)?))).collect()
+    }
+
+    fn whole(&self, treatment: usize) -> BTreeMap<u64, Vec<&'a MatchResult>> {
+        let mut seeds: BTreeMap<u64, Vec<&MatchResult>> = BTreeMap::new();
         for row in &self.treatments[treatment] {
             if let Ok(result) = &row.result {
-                values.entry(row.key.seed).or_default().push(result.value(metric));
+                seeds.entry(row.key.seed).or_default().push(result);
             }
         }
-        let whole = values.into_iter().filter(|(_, values)| values.len() == self.sides);
-        whole.filter_map(|(seed, values)| Some((seed, mean(&values)?))).collect()
+        seeds.retain(|_, matches| matches.len() == self.sides);
+        seeds
     }
 
     /// What the first of two treatments has more than the other of a metric, with each seed that both were played with.

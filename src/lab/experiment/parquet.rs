@@ -92,8 +92,8 @@ fn columns(plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Vec<TableColumn> {
         TableColumn::Whole(rows.iter().map(|row| of(row) as i64).collect())
     };
     let text = |of: &dyn Fn(&ExperimentRow) -> String| TableColumn::Text(rows.iter().map(of).collect());
-    let real = |of: &dyn Fn(&MatchResult) -> f64| {
-        TableColumn::Real(rows.iter().map(|row| row.result.as_ref().ok().map(of)).collect())
+    let real = |of: &dyn Fn(&MatchResult) -> Option<f64>| {
+        TableColumn::Real(rows.iter().map(|row| row.result.as_ref().ok().and_then(of)).collect())
     };
     let digest = |row: &ExperimentRow| {
         row.result.as_ref().map_or_else(|_| String::new(), |result| format!("{:016x}", result.digest))
@@ -112,8 +112,8 @@ fn columns(plan: &ExperimentPlan, rows: &[ExperimentRow]) -> Vec<TableColumn> {
         text(&|row| format!("{:016x}", row.assets)),
         text(&digest),
         text(&|row| row.result.as_ref().err().cloned().unwrap_or_default()),
-        real(&|result| result.seconds),
-        real(&|result| result.played),
+        real(&|result| Some(result.seconds)),
+        real(&|result| Some(result.played)),
     ]);
     for side in [0, 1] {
         columns.extend((0..Metric::ALL.len()).map(|metric| real(&|result| result.values[side][metric])));

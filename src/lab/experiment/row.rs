@@ -39,13 +39,13 @@ pub struct MatchResult {
     pub seconds: f64,
     /// Seconds of play.
     pub played: f64,
-    /// By [`Metric::ALL`], of the team that is named first and of its opponent.
-    pub values: [Vec<f64>; 2],
+    /// By [`Metric::ALL`], of the team that is named first and of its opponent; what a match has no figure of is nothing.
+    pub values: [Vec<Option<f64>>; 2],
 }
 
 impl MatchResult {
-    /// A figure of the team that is named first.
-    pub fn value(&self, metric: Metric) -> f64 {
+    /// A figure of the team that is named first, if there is one.
+    pub fn value(&self, metric: Metric) -> Option<f64> {
         self.values[0][metric as usize]
     }
 }

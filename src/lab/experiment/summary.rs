@@ -80,10 +80,9 @@ fn treatment_summary(plan: &ExperimentPlan, rows: &PairedRows, treatment: usize)
         let interval = mean_interval(&values, CONFIDENCE);
         (*metric, FigureSummary { mean: mean(&values), interval, against_first: against_first.flatten() })
     };
-    let seeds = plan.file.metrics.first().map(|metric| rows.values(treatment, *metric).len());
     TreatmentSummary {
         levels: names.zip(plan.level_names(treatment)).collect(),
-        seeds: seeds.unwrap_or_default(),
+        seeds: rows.seeds(treatment),
         figures: plan.file.metrics.iter().map(figure).collect(),
     }
 }

@@ -30,7 +30,8 @@ pub(super) fn fields(row: &ExperimentRow) -> Vec<String> {
     match result {
         Ok(MatchResult { digest, seconds, played, values }) => {
             fields.extend([format!("{digest:016x}"), String::new(), seconds.to_string(), played.to_string()]);
-            fields.extend(values.iter().flatten().map(f64::to_string));
+            let word = |value: &Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+            fields.extend(values.iter().flatten().map(word));
         }
         Err(error) => {
             fields.extend([String::new(), error.clone(), String::new(), String::new()]);
@@ -135,9 +136,10 @@ fn parse(plan: &ExperimentPlan, record: &StringRecord) -> Result<ExperimentRow, 
         return Err("was played from other files than there are now".into());
     }
     let value = |text: &&str| text.parse::<f64>().map_err(|_| format!("no number: {text}"));
+    let figure = |text: &&str| if text.is_empty() { Ok(None) } else { value(text).map(Some) };
     let result = if error.is_empty() {
         let (own, opponents) = figures.split_at(Metric::ALL.len());
-        let values = [own, opponents].map(|values| values.iter().map(value).collect::<Result<Vec<_>, _>>());
+        let values = [own, opponents].map(|values| values.iter().map(figure).collect::<Result<Vec<_>, _>>());
         let [own, opponents] = values;
         let values = [own?, opponents?];
         Ok(MatchResult { digest: hash(digest)?, seconds: value(seconds)?, played: value(played)?, values })

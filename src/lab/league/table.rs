@@ -132,8 +132,8 @@ impl LeagueTable {
 fn by_seed(plan: &ExperimentPlan, rows: &[ExperimentRow], pairs: usize) -> (Vec<SeedResults>, Vec<Vec<f64>>) {
     let mut seeds: BTreeMap<u64, Vec<(usize, f64)>> = BTreeMap::new();
     for row in rows {
-        if let Ok(result) = &row.result {
-            let ahead = result.value(Metric::GoalDifference);
+        let ahead = row.result.as_ref().ok().and_then(|result| result.value(Metric::GoalDifference));
+        if let Some(ahead) = ahead {
             seeds.entry(row.key.seed).or_default().push((row.key.treatment, ahead));
         }
     }

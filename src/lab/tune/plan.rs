@@ -149,7 +149,7 @@ impl TuningPlan {
             digest: played
                 .as_ref()
                 .map_or_else(|_| String::new(), |played| format!("{:016x}", played.digest)),
-            value: played.as_ref().ok().map(|played| played.value(self.file.objective.metric)),
+            value: played.as_ref().ok().and_then(|played| played.value(self.file.objective.metric)),
             error: played.err().unwrap_or_default(),
         }
     }

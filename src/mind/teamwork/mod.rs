@@ -4,6 +4,7 @@
 //! others should know. What it wants to say waits in its outbox for the Transmit stage.
 
 mod arbitration;
+mod attempts;
 mod bid;
 mod booking;
 mod claims;
@@ -19,6 +20,7 @@ mod tests;
 
 use bevy::prelude::*;
 
+pub use attempts::SwapAttempts;
 pub use booking::Booking;
 pub use claims::{Claim, Claims};
 pub use global_map::{BallEstimate, GlobalMap, Reported, fuse};

@@ -4,6 +4,7 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
+use super::attempts::SwapAttempts;
 use super::team_model::{TeamModel, kick_off_roles};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
@@ -28,6 +29,8 @@ use crate::strategy::{Role, Strategies, Strategy};
 pub struct Swapping {
     /// The protocol's state machine.
     pub machine: RoleSwap,
+    /// What became of the swaps that the robot has begun.
+    pub attempts: SwapAttempts,
     /// When the timers run out, in ticks.
     deadlines: [Option<u64>; 3],
     /// It starts no attempt before this tick.
@@ -62,6 +65,7 @@ impl Swapping {
         };
         Some(Swapping {
             machine,
+            attempts: SwapAttempts::default(),
             deadlines: [None; 3],
             earliest: 0,
             reassigned: false,
@@ -84,6 +88,7 @@ impl Swapping {
     /// The robot was switched off and on again.
     pub(super) fn restart(&mut self, restart: Restart) {
         self.machine.restart(restart == Restart::Kept);
+        self.attempts.give_up();
         self.deadlines = [None; 3];
         self.policy = PolicyState::default();
         (self.values, self.planned, self.asked) = (None, None, None);
@@ -190,6 +195,7 @@ impl SwapperItem<'_, '_> {
         if participants.is_empty() {
             return;
         }
+        self.swapping.attempts.begin(clock.tick);
         self.step(Input::Initiate { reassignment, participants }, &spec.timers, clock);
     }
 
@@ -251,12 +257,14 @@ impl SwapperItem<'_, '_> {
                 }
                 Effect::Stop(timer) => swapping.deadlines[timer as usize] = None,
                 Effect::Announce => self.team_model.announce = true,
-                Effect::Finished(Outcome::Completed) => {
-                    if let Some(planned) = swapping.planned.take() {
+                Effect::Finished(outcome) => {
+                    swapping.attempts.finish(outcome, clock.tick);
+                    if outcome != Outcome::Completed {
+                        swapping.back_off(timers, clock);
+                    } else if let Some(planned) = swapping.planned.take() {
                         self.team_model.roles = planned;
                     }
                 }
-                Effect::Finished(_) => swapping.back_off(timers, clock),
             }
         }
     }

@@ -135,7 +135,9 @@ fn print(plan: &ExperimentPlan, row: &ExperimentRow, out: &mut impl Write) -> st
             writeln!(out, "{:20} {:>12} {:>12}", "", row.strategies[0], row.strategies[1])?;
             let [own, opponents] = &result.values;
             for ((metric, own), other) in Metric::ALL.iter().zip(own).zip(opponents) {
-                writeln!(out, "{:20} {own:12.4} {other:12.4} {}", metric.column(), metric.unit())?;
+                let [own, other] =
+                    [own, other].map(|value| value.map_or_else(|| "-".into(), |value| format!("{value:.4}")));
+                writeln!(out, "{:20} {own:>12} {other:>12} {}", metric.column(), metric.unit())?;
             }
             Ok(())
         }

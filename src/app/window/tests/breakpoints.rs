@@ -186,11 +186,16 @@ fn watching_a_match_for_breakpoints_does_not_change_it() {
     use crate::game::record::Record;
     let stops = ["ball_known", "stuck", "ball_in_scoop"].map(|name| (None, StopAt::Feature(name.into())));
     let mut window = window(&stops);
-    while window.app.world().resource::<Clock>().tick < 600 {
+    // It stops in many frames, and plays a tick at least in each other one.
+    for _ in 0..2_000 {
+        if window.app.world().resource::<Clock>().tick >= 600 {
+            break;
+        }
         window.app.world_mut().resource_mut::<Playback>().paused = false;
         window.frame(SIZE, 1.0);
     }
     let tick = window.app.world().resource::<Clock>().tick;
+    assert!(tick >= 600, "the match stands still at tick {tick}");
     let plan = MatchPlan::read(&assets(), &choice()).expect("the match is sound");
     let mut game = Match::new(&plan);
     (0..tick).for_each(|_| game.tick());

@@ -49,9 +49,11 @@ impl LaidOutWindow {
     /// Plays until so many ticks are over, and is paused there.
     pub(super) fn play_to(&mut self, until: u64) {
         while self.clock() < until {
+            let before = self.clock();
             let mut playback = self.app.world_mut().resource_mut::<Playback>();
             (playback.paused, playback.single_ticks) = (true, 1);
             self.frame(SIZE, 1.0);
+            assert!(self.clock() > before, "the match stands still at tick {before}");
         }
         self.frame(SIZE, 1.0);
     }

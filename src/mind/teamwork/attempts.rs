@@ -1,0 +1,55 @@
+//! What became of the role swaps that a robot has begun.
+
+use crate::protocol::role_swap::Outcome;
+
+/// The attempts at a role swap that a robot has initiated since the match began, whatever it forgot meanwhile.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SwapAttempts {
+    /// All of them.
+    pub begun: u32,
+    /// Those in which all acknowledged their new roles, as far as the initiator knows.
+    pub completed: u32,
+    /// How long those took in all, from the first LOCK to the last ACKSWAP, in ticks.
+    pub ticks: u64,
+    /// When the attempt that goes on began, in ticks.
+    since: Option<u64>,
+}
+
+impl SwapAttempts {
+    pub(super) fn begin(&mut self, tick: u64) {
+        self.begun += 1;
+        self.since = Some(tick);
+    }
+
+    pub(super) fn finish(&mut self, outcome: Outcome, tick: u64) {
+        let Some(since) = self.since.take() else { return };
+        if outcome == Outcome::Completed {
+            self.completed += 1;
+            self.ticks += tick - since;
+        }
+    }
+
+    /// The robot is switched off: nobody finishes its attempt.
+    pub(super) fn give_up(&mut self) {
+        self.since = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_completed_attempts_have_a_length() {
+        let mut attempts = SwapAttempts::default();
+        for (tick, outcome) in [(10, Outcome::Completed), (50, Outcome::LocksMissing)] {
+            attempts.begin(tick);
+            attempts.finish(outcome, tick + 7);
+        }
+        attempts.begin(100);
+        attempts.give_up();
+        attempts.finish(Outcome::Completed, 500);
+        let SwapAttempts { begun, completed, ticks, .. } = attempts;
+        assert_eq!((begun, completed, ticks), (3, 1, 7));
+    }
+}
