@@ -16,6 +16,7 @@ mod fairness;
 mod first_messages;
 mod golden_digests;
 mod images;
+mod invariants;
 mod network;
 mod numbers;
 mod paper_relations;

@@ -60,14 +60,14 @@ fn a_full_disk_is_one_line_and_an_exit_code_of_its_own() {
         let full = File::options().write(true).open("/dev/full").expect("Linux has it");
         let output = program(call).stdout(full).stderr(Stdio::piped()).output().expect("the program starts");
         let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(3), "{call:?}: {message}");
+        assert_eq!(output.status.code(), Some(5), "{call:?}: {message}");
         let lines: Vec<&str> = message.lines().filter(|line| !line.ends_with("is played headless")).collect();
         assert_eq!(lines.len(), 1, "{call:?}: {message}");
         assert!(lines[0].contains("No space left"), "{call:?}: {message}");
     }
     let output = touchline(&["check", STRATEGY, "--junit", "/dev/full"]);
     let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(3), "{message}");
+    assert_eq!(output.status.code(), Some(5), "{message}");
     assert!(message.starts_with("/dev/full: ") && message.lines().count() == 1, "{message}");
     assert!(text(&output.stdout).contains(STRATEGY), "{}", text(&output.stdout));
 }
@@ -78,7 +78,7 @@ fn a_report_that_cannot_be_written_is_known_before_anything_is_played() {
     for path in [folder.path().to_owned(), folder.path().join("missing").join("report.xml")] {
         let output = touchline(&["check", STRATEGY, "--junit", &path.to_string_lossy()]);
         let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(3), "{message}");
+        assert_eq!(output.status.code(), Some(5), "{message}");
         assert!(message.starts_with(&*path.to_string_lossy()) && message.lines().count() == 1, "{message}");
         assert!(output.stdout.is_empty(), "{}", text(&output.stdout));
     }

@@ -90,7 +90,7 @@ fn each_run_of_a_scenario_is_recorded_in_a_file_of_its_own() {
 #[test]
 fn a_recording_that_cannot_be_written_is_told_before_the_match() {
     let output = touchline(&["run", "--record", "/no/such/folder/a.replay"]);
-    assert_eq!(output.status.code(), Some(3));
+    assert_eq!(output.status.code(), Some(5));
     assert_eq!(output.stdout, b"");
     assert!(text(&output.stderr).starts_with("/no/such/folder/a.replay: cannot be written: "));
 }
@@ -122,5 +122,5 @@ fn the_answer_to_why_is_also_a_page_with_other_futures() {
     assert!(fs::read(&page).expect("it is written").starts_with(b"<!DOCTYPE html>"));
     let nowhere = folder.path().join("nowhere/why.html");
     let output = touchline(&["why", path_of(&path), "--page", path_of(&nowhere)]);
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(3), 0), "it is told before the long work");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(5), 0), "it is told before the long work");
 }

@@ -17,9 +17,11 @@ pub(super) enum Ending {
     /// A replay parts from its recording, a tick from its repetition, a scenario has failed or is undecided, a robot has lost its match, or its picture did not arrive.
     Failed = 1,
     BadInput = 2,
-    /// A result could not be written.
-    NotWritten = 3,
+    /// Something that holds whatever the radio does did not.
+    Unsafe = 3,
     WindowFailed = 4,
+    /// A result could not be written.
+    NotWritten = 5,
     /// By Ctrl-C: 128 and the number of SIGINT, as in a shell.
     Interrupted = 130,
     /// The reader of the output closed it: 128 and the number of SIGPIPE, as in a shell.
@@ -40,8 +42,9 @@ Exit codes:
   1    a scenario failed or is undecided, a replay parts from its recording or a tick from its repetition, a robot has lost its
        match, or what ChaosManager wanted has not arrived
   2    bad input: a file, an option or an address, or an order that was refused
-  3    a result could not be written
+  3    with --strict: an invariant was broken that holds whatever the radio does
   4    the window could not be kept open
+  5    a result could not be written
   130  interrupted by Ctrl-C; the result so far is printed
   141  the reader of the output has closed it";
 

@@ -1,6 +1,7 @@
 //! The command line. One file a subcommand; `ending` alone says how commands end.
 
 mod box_report;
+mod broken_report;
 mod chaos;
 mod check;
 mod duel;

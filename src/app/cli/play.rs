@@ -65,7 +65,8 @@ impl PlayCommand {
         let (header, (plan, _)) = ReplayHeader::of(Recorded::Match(choice), assets)?;
         tell(format_args!("{missing}, so the match is played headless"));
         let (recorder, patience) = (self.record.begin(header)?, self.options.patience());
-        HeadlessRun { plan: &plan, patience, interrupt, recorder, heavy: false }.play(false, out)
+        HeadlessRun { plan: &plan, patience, interrupt, recorder, heavy: false, strict: false }
+            .play(false, out)
     }
 
     /// Whether anything was chosen, rather than left to the menu.

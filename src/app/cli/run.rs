@@ -14,6 +14,7 @@ use super::recording::{self, RecordOption};
 use super::run_report::RunReport;
 use crate::data::AssetFolder;
 use crate::game::net::{self, Awaited};
+use crate::game::record::Invariants;
 use crate::game::{Match, MatchPlan};
 use crate::lab::replay::{Recorded, Recorder, ReplayHeader};
 use crate::world::referee::RuleBook;
@@ -35,6 +36,9 @@ pub(super) struct RunCommand {
     /// slower; not for matches that cross sockets.
     #[arg(long)]
     heavy: bool,
+    /// End with the exit code 3 if an invariant was broken that holds whatever the radio does.
+    #[arg(long)]
+    strict: bool,
 }
 
 impl RunCommand {
@@ -50,6 +54,7 @@ impl RunCommand {
             interrupt: Interrupt::listen(),
             recorder: self.record.begin(header)?,
             heavy: self.heavy,
+            strict: self.strict,
         };
         run.play(self.json, out)
     }
@@ -64,6 +69,8 @@ pub(super) struct HeadlessRun<'a> {
     pub recorder: Option<Recorder>,
     /// Whether each tick is played twice.
     pub heavy: bool,
+    /// Whether a broken invariant is a failure.
+    pub strict: bool,
 }
 
 impl HeadlessRun<'_> {
@@ -85,6 +92,9 @@ impl HeadlessRun<'_> {
             print_json(&report, out)?;
         } else {
             report.print(out)?;
+        }
+        if self.strict && game.world().resource::<Invariants>().is_unsafe() {
+            return Ok(Ending::Unsafe);
         }
         Ok(Ending::of_run(report.interrupted))
     }

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::box_report::BoxReport;
+use super::broken_report::BrokenReport;
 use crate::comms::radio::{LinkCounters, RadioRecord};
 use crate::comms::tcm::{MessageBudgets, Spent};
 use crate::data::in_one_line;
@@ -56,6 +57,8 @@ pub(super) struct RunReport {
     states: [HoldFigures<(usize, usize)>; 2],
     /// How deep the ball has sunk into robots and walls.
     overlap: BallOverlap,
+    /// What should hold of every match and did not.
+    invariants: BrokenReport,
     /// Metres, all robots of a team together.
     driven: [f64; 2],
     /// What a team's robots said to each other.
@@ -204,6 +207,7 @@ impl RunReport {
             role_cover: record.role_cover,
             states: record.states.clone(),
             overlap: record.overlap,
+            invariants: BrokenReport::of(game),
             driven: Team::BOTH.map(|team| record.driven_by(team)),
             messages: Team::BOTH.map(|team| Messages::of(team, game.world().resource::<RadioRecord>())),
             budgets: TeamBudget::of(game),
@@ -250,6 +254,7 @@ impl RunReport {
         if let Some(referee_box) = &self.referee_box {
             referee_box.print(out)?;
         }
+        self.invariants.print(out)?;
         let pace = share(self.ticks_per_second * self.seconds, self.ticks as f64);
         writeln!(
             out,

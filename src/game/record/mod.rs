@@ -7,6 +7,7 @@ mod crowding;
 mod digest;
 mod figures;
 mod holds;
+mod invariants;
 mod kicks;
 mod loose_balls;
 mod overlap;
@@ -31,6 +32,7 @@ pub use contacts::{APART, ContactTotal, RobotContacts};
 pub use crowding::{AGGLOMERATION, CROWD, Crowding, RADII};
 pub use figures::Record;
 pub use holds::{BACK_WITHIN, HoldFigures};
+pub use invariants::{Breach, BreachCount, Invariant, Invariants};
 pub use kicks::{GripFigures, KickFigures};
 pub use loose_balls::{LOOSE_AFTER, LooseBalls, WON_AFTER};
 pub use overlap::{BallOverlap, TOLERANCE};
@@ -63,8 +65,10 @@ pub(super) fn plugin(app: &mut App) {
         Team::BOTH.iter().any(|team| strategies.of(*team).teamwork.ball_booking.is_some())
     };
     let bookings = watch_bookings.run_if(is_booked);
-    let systems = (digest::digest, measure, bookings, watch_overlaps, move_clock).chain();
+    let invariants = invariants::watch.run_if(invariants::is_due);
+    let systems = (digest::digest, measure, bookings, watch_overlaps, invariants, move_clock).chain();
     app.match_resource::<Record>();
+    app.match_resource::<Invariants>().starts_empty();
     app.add_systems(Tick, systems.in_set(TickSystems::Record));
 }
 
@@ -119,7 +123,7 @@ fn watch_overlaps(
     ball: Single<&RapierRigidBodyHandle, With<Ball>>,
     mut record: ResMut<Record>,
 ) {
-    overlaps.of_ball(*ball, kind.radius).for_each(|depth| record.overlap.add(depth));
+    record.overlap.update(overlaps.of_ball(*ball, kind.radius));
 }
 
 fn move_clock(mut clock: ResMut<Clock>) {

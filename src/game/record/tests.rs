@@ -29,6 +29,9 @@ fn app() -> App {
     app.insert_resource(Clock::new(60.0));
     app.insert_resource(state);
     app.init_resource::<RadioRecord>();
+    app.init_resource::<Invariants>();
+    app.insert_resource(RuleBook::default());
+    app.insert_resource(crate::testing::pitch());
     let strategy = std::sync::Arc::new(crate::testing::idle());
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(BALL);

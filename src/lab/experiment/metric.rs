@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comms::radio::{LinkCounters, RadioRecord};
 use crate::game::Match;
-use crate::game::record::{AGGLOMERATION, CROWD, Record};
+use crate::game::record::{AGGLOMERATION, CROWD, Invariants, Record};
 use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::{SwapAttempts, Swapping};
 use crate::world::referee::RemovalReason;
@@ -17,6 +17,7 @@ pub struct MatchFigures<'a> {
     radio: &'a RadioRecord,
     /// Home first.
     score: [u32; 2],
+    invariants: &'a Invariants,
     /// What became of the role swaps that robots have begun, home first.
     swaps: [SwapFigures; 2],
     /// Length of a tick, s.
@@ -36,8 +37,9 @@ impl<'a> MatchFigures<'a> {
     /// Those of a match so far.
     pub fn of(game: &'a Match) -> MatchFigures<'a> {
         let radio = game.world().resource::<RadioRecord>();
+        let invariants = game.world().resource::<Invariants>();
         let (swaps, dt) = (swaps(game.world()), game.clock().dt.into());
-        MatchFigures { record: game.record(), radio, score: game.state().score, swaps, dt }
+        MatchFigures { record: game.record(), radio, score: game.state().score, invariants, swaps, dt }
     }
 
     /// A part of the time of play.
@@ -55,6 +57,12 @@ impl<'a> MatchFigures<'a> {
 
     fn goals_ahead(&self, team: Team) -> f64 {
         f64::from(self.score[team.index()]) - f64::from(self.score[team.opponent().index()])
+    }
+
+    /// How often the team, or neither of both, broke an invariant.
+    fn broken(&self, team: Team) -> f64 {
+        let own = self.invariants.broken.iter().filter(|((_, of), _)| of.is_none_or(|of| of == team));
+        own.map(|(_, count)| f64::from(count.times)).sum()
     }
 
     fn removed(&self, team: Team, reason: RemovalReason) -> f64 {
@@ -214,6 +222,8 @@ metrics! {
         some_ratio(m.swaps[team.index()].completed, m.swaps[team.index()].begun);
     SwapTime "swap_time" ["s"] "How long those took in the mean, from the first LOCK to the last ACKSWAP." (m, team)
         some_ratio(m.swaps[team.index()].ticks * m.dt, m.swaps[team.index()].completed);
+    InvariantsBroken "invariants_broken" [""] "How often something did not hold for too long that must hold of every match." (m, team)
+        m.broken(team);
     StateChanges "state_changes" ["1/min"] "How often its robots changed the state of their machine, for a minute." (m, team)
         m.per_minute(count(m.record.states[team.index()].changes));
     StateOscillations "state_oscillations" ["1/min"] "State changes that went back within 3 s, for a minute of play." (m, team)

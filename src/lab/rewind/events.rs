@@ -5,6 +5,7 @@ use std::fmt;
 use bevy::prelude::*;
 
 use crate::clock::Clock;
+use crate::game::record::{Breach, Invariant, Invariants};
 use crate::ids::{PlayerNumber, RobotId, Team};
 use crate::mind::teamwork::{Booking, Swapping};
 use crate::protocol::role_swap::Lock;
@@ -39,6 +40,8 @@ pub enum MatchEventKind {
     LockLost { robot: RobotId, by: PlayerNumber },
     /// A robot has crashed.
     Crashed { robot: RobotId },
+    /// Something that must hold has not for too long.
+    Broken { invariant: Invariant, team: Option<Team> },
 }
 
 impl MatchEventKind {
@@ -47,6 +50,7 @@ impl MatchEventKind {
         match self {
             MatchEventKind::Call(Decision::Goal { by, .. }) => Some(*by),
             MatchEventKind::Call(_) => None,
+            MatchEventKind::Broken { team, .. } => *team,
             MatchEventKind::RoleTaken { robot, .. }
             | MatchEventKind::RolledBack { robot, .. }
             | MatchEventKind::Booked { robot }
@@ -69,6 +73,8 @@ impl fmt::Display for MatchEventKind {
                 write!(f, "{robot} loses the lock of {} {by}: no swap", robot.team)
             }
             MatchEventKind::Crashed { robot } => write!(f, "{robot} crashes"),
+            MatchEventKind::Broken { invariant, team: Some(team) } => write!(f, "{team}: {invariant}"),
+            MatchEventKind::Broken { invariant, .. } => invariant.fmt(f),
         }
     }
 }
@@ -167,6 +173,16 @@ impl EventWatch {
         let of_robots = (self.0.iter_mut().zip(&before.0))
             .filter(|(now, before)| now.id == before.id)
             .flat_map(|(now, before)| now.since(before, strategies));
-        calls.into_iter().chain(of_robots).map(|what| MatchEvent { tick, played, what }).collect()
+        let breaches = &world.resource::<Invariants>().breaches;
+        let broken = breaches.iter().rev().take_while(|breach| breach.tick == tick).map(|breach| {
+            let Breach { invariant, team, .. } = *breach;
+            MatchEventKind::Broken { invariant, team }
+        });
+        calls
+            .into_iter()
+            .chain(of_robots)
+            .chain(broken)
+            .map(|what| MatchEvent { tick, played, what })
+            .collect()
     }
 }

@@ -77,6 +77,12 @@ impl Swapping {
         })
     }
 
+    /// Whether the robot is locked although its timer has run out, or does not run.
+    pub fn is_overdue(&self, tick: u64) -> bool {
+        let deadline = self.deadlines[Timer::Lock as usize];
+        self.machine.lock().is_some() && deadline.is_none_or(|deadline| tick > deadline)
+    }
+
     /// After an attempt that failed, everybody who took part waits a short time before another one, in case two attempts ran
     /// into each other (section VII-A.1).
     fn back_off(&mut self, timers: &Timers, clock: &Clock) {

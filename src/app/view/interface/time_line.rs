@@ -167,6 +167,11 @@ fn mark(painter: &egui::Painter, at: Pos2, what: &MatchEventKind) {
         MatchEventKind::LockLost { .. } => {
             painter.circle_stroke(below, 2.5, (1.5, paint(colours::LOCK)));
         }
+        MatchEventKind::Broken { .. } => {
+            let (left, right) = (egui::vec2(-3.0, 5.0), egui::vec2(3.0, 5.0));
+            let corners = vec![below - egui::vec2(0.0, 1.0), below + left, below + right];
+            painter.add(egui::Shape::closed_line(corners, (1.5, paint(colours::PENALTY))));
+        }
         MatchEventKind::Crashed { .. } => {
             for side in [-1.0, 1.0] {
                 let arm = egui::vec2(3.0, 3.0 * side);
