@@ -15,6 +15,7 @@ pub mod replay;
 pub mod report;
 pub mod rewind;
 pub mod scenario;
+pub mod soak;
 pub mod statistics;
 pub mod tune;
 pub mod why;

@@ -12,6 +12,7 @@ mod options;
 mod output;
 mod replays;
 mod report;
+mod soak;
 mod tune;
 
 use std::path::{Path, PathBuf};

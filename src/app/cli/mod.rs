@@ -25,6 +25,7 @@ mod robot;
 mod run;
 mod run_report;
 mod shell_word;
+mod soak;
 mod trials;
 mod tune;
 mod why;
@@ -76,6 +77,9 @@ enum CliCommand {
     /// Put the parts of an experiment together that were played on several machines.
     #[command(after_help = EXIT_CODES)]
     Merge(merge::MergeCommand),
+    /// Play matches in which everything goes wrong, until something breaks that must not, and find the smallest such match.
+    #[command(after_help = EXIT_CODES)]
+    Soak(soak::SoakCommand),
     /// Search for the numbers with which a team does best, and compare them with those of before on other seeds.
     #[command(after_help = EXIT_CODES)]
     Tune(tune::TuneCommand),
@@ -132,6 +136,7 @@ impl Cli {
             Some(CliCommand::Experiment(experiment)) => experiment.run(&assets, &mut out),
             Some(CliCommand::League(league)) => league.run(&assets, &mut out),
             Some(CliCommand::Merge(merge)) => merge.run(&assets, &mut out),
+            Some(CliCommand::Soak(soak)) => soak.run(&assets, &mut out),
             Some(CliCommand::Tune(tune)) => tune.run(&assets, &mut out),
             Some(CliCommand::Report(report)) => report.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::comms::tcm::DataType;
+use crate::game::record::Invariant;
 use crate::geometry::Zone;
 use crate::ids::{RobotId, Team};
 use crate::lab::statistics::ProbabilityTest;
@@ -215,6 +216,12 @@ pub enum Condition {
     All(Vec<Condition>),
     /// One of these holds at least.
     Any(Vec<Condition>),
+    /// An [invariant](Invariant) is broken: it has not held for longer than its bound; by a team, or by anybody.
+    Broken {
+        invariant: Invariant,
+        #[serde(default)]
+        team: Option<Team>,
+    },
     /// This does not hold.
     Not(Box<Condition>),
     /// Has held for this time without a break, s.

@@ -170,6 +170,13 @@ pub(super) fn find<'s>(condition: &'s Condition, scene: &'s Scene) -> Finding<'s
             let holds = known.next().flatten().is_some_and(|first| known.all(|other| other == Some(first)));
             finding(holds, move || configurations(scene, *team))
         }
+        Condition::Broken { invariant, team } => {
+            let broken = scene.invariants.broken_now(*invariant, *team);
+            finding(broken.is_some(), move || match broken {
+                Some(since) => format!("{invariant}, since tick {since}"),
+                None => "it was not so, or not for long".into(),
+            })
+        }
         // Their watches see to these.
         Condition::Sent(_)
         | Condition::Delivered(_)

@@ -15,7 +15,7 @@ use super::tally::{ProbabilityCount, Tally};
 use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
 use crate::game::Match;
-use crate::game::record::Record;
+use crate::game::record::{Invariants, Record};
 use crate::geometry::{Pose, Twist};
 use crate::ids::RobotId;
 use crate::mind::teamwork::{Booking, BookingStatus, Carrier, Swapping, TeamModel};
@@ -174,6 +174,7 @@ pub fn observe(world: &mut World, judge: &mut Judge) {
         score: world.resource::<MatchState>().score,
         radio: world.resource::<RadioRecord>(),
         contacts: &record.contacts,
+        invariants: world.resource::<Invariants>(),
     });
 }
 

@@ -4,7 +4,7 @@ use bevy::prelude::Vec2;
 
 use super::condition::{Area, Thing};
 use crate::comms::radio::RadioRecord;
-use crate::game::record::RobotContacts;
+use crate::game::record::{Invariants, RobotContacts};
 use crate::geometry::{Pose, Zone};
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -31,6 +31,8 @@ pub struct Scene<'a> {
     pub radio: &'a RadioRecord,
     /// Who touches whom, and has touched.
     pub contacts: &'a RobotContacts,
+    /// What is broken.
+    pub invariants: &'a Invariants,
 }
 
 /// A robot in a [`Scene`].

@@ -9,7 +9,7 @@ use super::file::ScenarioFile;
 use super::scene::{RobotScene, Scene};
 use crate::comms::radio::RadioRecord;
 use crate::data::{DataError, Source};
-use crate::game::record::RobotContacts;
+use crate::game::record::{Invariants, RobotContacts};
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -83,6 +83,7 @@ pub(super) struct Stage {
     pub score: [u32; 2],
     pub radio: RadioRecord,
     pub contacts: RobotContacts,
+    pub invariants: Invariants,
 }
 
 impl Default for Stage {
@@ -112,6 +113,7 @@ impl Default for Stage {
             score: [0; 2],
             radio: RadioRecord::default(),
             contacts: RobotContacts::default(),
+            invariants: Invariants::default(),
         }
     }
 }
@@ -128,6 +130,7 @@ impl Stage {
             score: self.score,
             radio: &self.radio,
             contacts: &self.contacts,
+            invariants: &self.invariants,
         }
     }
 }

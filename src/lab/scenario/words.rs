@@ -145,6 +145,8 @@ impl Display for Condition {
                 let limits = limits("more than", *above, "less than", *below, " s");
                 write!(f, "robots of {team} have touched each other for {limits}")
             }
+            Condition::Broken { invariant, team: Some(team) } => write!(f, "of {team}, {invariant}"),
+            Condition::Broken { invariant, team: None } => invariant.fmt(f),
             Condition::RolesDistinct(team) => write!(f, "no two robots of {team} have the same role"),
             Condition::RolesAre(team, roles) => f.write_str(&list(
                 roles.iter().map(|(number, role)| format!("{team} {number} is {role}")),
@@ -316,6 +318,7 @@ mod tests {
             (r#"RolesAre(Home, {0: "g", 1: "h"})"#, "home 0 is g and home 1 is h"),
             (r#"Touching("home 1", "away 2")"#, "home 1 touches away 2"),
             (r#"Drives("home 1")"#, "home 1 drives at the ball"),
+            ("Broken(invariant: OneRobotARole, team: Home)", "of home, a role is doubled"),
             ("Driving(team: Home, at_most: 1)", "at most 1 of home drive at the ball"),
             (
                 "MateContacts(team: Home, at_most: 2)",

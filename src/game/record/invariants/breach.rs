@@ -86,6 +86,14 @@ impl Invariants {
         self.broken.keys().any(|(invariant, _)| invariant.is_safety())
     }
 
+    /// Since when an invariant fails to hold, of a team or of anybody, if it has for longer than its bound.
+    pub fn broken_now(&self, invariant: Invariant, team: Option<Team>) -> Option<u64> {
+        let is_meant = |known: &&FailingSince| {
+            known.broken && known.invariant == invariant && (team.is_none() || known.team == team)
+        };
+        self.failing.iter().filter(is_meant).map(|known| known.since).min()
+    }
+
     /// What fails to hold in the tick that is just over.
     pub(super) fn note(
         &mut self,

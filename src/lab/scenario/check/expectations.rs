@@ -132,6 +132,10 @@ impl Checker<'_> {
                 self.two_mates(*team, &at)?;
                 self.limits(*below, *above, Bound::SECONDS, &at)
             }
+            Condition::Broken { team: None, .. } => Ok(()),
+            Condition::Broken { team: Some(team), .. } => {
+                self.takes_part(*team, &at.key("Broken").key("team"))
+            }
             Condition::RolesDistinct(team)
             | Condition::ConfigurationsAgree(team)
             | Condition::Unlocked(team) => self.takes_part(*team, at),
