@@ -17,6 +17,7 @@ mod first_messages;
 mod golden_digests;
 mod images;
 mod invariants;
+mod jam;
 mod network;
 mod numbers;
 mod paper_relations;

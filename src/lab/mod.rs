@@ -10,6 +10,7 @@ pub mod experiment;
 pub mod export;
 pub mod eyes;
 mod html;
+pub mod jam;
 pub mod league;
 pub mod replay;
 pub mod report;

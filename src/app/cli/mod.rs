@@ -11,6 +11,7 @@ mod export;
 mod fit_eyes;
 mod heavy;
 mod interrupt;
+mod jam;
 mod kinds;
 mod league;
 mod merge;
@@ -80,6 +81,9 @@ enum CliCommand {
     /// Play matches in which everything goes wrong, until something breaks that must not, and find the smallest such match.
     #[command(after_help = EXIT_CODES)]
     Soak(soak::SoakCommand),
+    /// Find the few messages of a scenario whose loss does the most harm: the worst radio.
+    #[command(after_help = EXIT_CODES)]
+    Jam(jam::JamCommand),
     /// Search for the numbers with which a team does best, and compare them with those of before on other seeds.
     #[command(after_help = EXIT_CODES)]
     Tune(tune::TuneCommand),
@@ -137,6 +141,7 @@ impl Cli {
             Some(CliCommand::League(league)) => league.run(&assets, &mut out),
             Some(CliCommand::Merge(merge)) => merge.run(&assets, &mut out),
             Some(CliCommand::Soak(soak)) => soak.run(&assets, &mut out),
+            Some(CliCommand::Jam(jam)) => jam.run(&assets, &mut out),
             Some(CliCommand::Tune(tune)) => tune.run(&assets, &mut out),
             Some(CliCommand::Report(report)) => report.run(&assets, &mut out),
             Some(CliCommand::FitEyes(fit)) => fit.run(&assets, &mut out),

@@ -16,7 +16,7 @@ use bevy::prelude::*;
 use smallvec::SmallVec;
 
 pub use channel::{Channel, Delivery, Loss};
-pub use faults::{FaultRule, FaultRules};
+pub use faults::{Act, FaultRule, FaultRules, Which};
 pub(crate) use hand::{deliver_packet, drop_packet};
 pub use interference::{Interference, Partition};
 pub use packet::{InFlight, Packet};
