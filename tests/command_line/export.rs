@@ -45,7 +45,7 @@ fn what_cannot_be_exported_is_told_in_one_line() {
         (&["export", &replay, "--svg", &picture, "--at", "9999999"], 2, "9999999"),
         (&["export", "Cargo.toml", "--svg", &picture, "--at", "1"], 2, "Cargo.toml"),
         (&["export", &replay, "--gif", &picture, "--from", "90", "--to", "60"], 2, "--to"),
-        (&["export", &replay, "--svg", &beyond, "--at", "1"], 3, "nowhere"),
+        (&["export", &replay, "--svg", &beyond, "--at", "1"], 5, "nowhere"),
     ];
     for (arguments, code, word) in calls {
         let output = touchline(arguments);

@@ -23,14 +23,6 @@ const MANY: usize = 14;
 /// A robot is off at the end of the faults, and stays so, with this probability. Two of a team are always on.
 const STAYS_OFF: f32 = 0.2;
 
-/// What no radio may break.
-const SAFETY: [Invariant; 5] = [
-    Invariant::Finite,
-    Invariant::InTheWorld,
-    Invariant::OffIsDeaf,
-    Invariant::RolesAreKept,
-    Invariant::LockIsGivenBack,
-];
 /// What must settle when the faults have ended.
 const LIVENESS: [Invariant; 3] = [Invariant::OneRobotARole, Invariant::NoRoleVacant, Invariant::BookerPlays];
 
@@ -97,7 +89,8 @@ impl SoakPool {
             .collect();
         script.sort_by(|a, b| a.at.total_cmp(&b.at));
         script.extend(peace(sides, &mut dice).into_iter().map(|what| TimedEvent { at: FAULTS, what }));
-        let safety = SAFETY.map(|invariant| never(invariant, 0.0, "no radio may break it"));
+        let safety = Invariant::ALL.into_iter().filter(|invariant| invariant.is_safety());
+        let safety = safety.map(|invariant| never(invariant, 0.0, "no radio may break it"));
         let settled = FAULTS + SETTLE;
         let liveness = LIVENESS.map(|invariant| never(invariant, settled, "the faults have ended"));
         ScenarioFile {
@@ -112,7 +105,7 @@ impl SoakPool {
             away: Some(sides[1].file(Team::Away)),
             ball: Some(BallFile { at: BallPlaces::One(Vec2::ZERO), velocity: Vec2::ZERO }),
             script,
-            expect: safety.into_iter().chain(liveness).collect(),
+            expect: safety.chain(liveness).collect(),
             ..ScenarioFile::default()
         }
     }
