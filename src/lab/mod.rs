@@ -19,4 +19,5 @@ pub mod scenario;
 pub mod soak;
 pub mod statistics;
 pub mod tune;
+mod unbroken;
 pub mod why;

@@ -77,7 +77,7 @@ impl SoakCommand {
         writeln!(out, "  again: touchline soak{named} --seed {seed} --hours 0.001")?;
         let (file, events) = (self.out.display(), smallest.script.len());
         writeln!(out, "  {file}: the smallest such match of {tried} that were tried, with {events} events")?;
-        writeln!(out, "  touchline check {file}; touchline play --scenario {file}")?;
+        writeln!(out, "  touchline check {file}; touchline play {file}")?;
         Ok(Ending::Failed)
     }
 }

@@ -30,6 +30,13 @@ pub enum TeamMessage {
     Text(String),
 }
 
+impl TeamMessage {
+    /// Whether it is a step of a protocol, for which others wait, and not news that comes again.
+    pub fn is_step(&self) -> bool {
+        matches!(self, TeamMessage::RoleSwap(_) | TeamMessage::Book(_))
+    }
+}
+
 /// Where the sender is; sent by every player again and again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Position {

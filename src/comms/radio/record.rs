@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::channel::{Delivery, Loss};
 use super::packet::Packet;
 use crate::clock::Clock;
+use crate::comms::messages::TeamMessage;
 use crate::comms::tcm::DataType;
 use crate::ids::RobotId;
 
@@ -68,6 +69,17 @@ pub enum TransmissionState {
     Arrived(u64),
     /// It was lost.
     Lost(Loss),
+}
+
+impl Transmission {
+    /// What it is called: the kind, and which attempt at a role swap it belongs to.
+    pub fn label(&self) -> String {
+        let kind = self.packet.kind;
+        match self.packet.message() {
+            Some(TeamMessage::RoleSwap(message)) => format!("{kind} {}", message.sequence()),
+            _ => kind.to_string(),
+        }
+    }
 }
 
 /// How long transmissions are kept, s.

@@ -103,13 +103,18 @@ impl SeenPlayerItem<'_, '_> {
             distance: self.pose.position.distance(ball),
             velocity: self.twist.linear,
             told: self.pose.forward().rotate(self.command.velocity()),
-            plays: self.robot.health.drives() && self.orders.state == RobotState::Playing,
+            plays: plays(self.robot, self.orders),
             holds: self.handling.holds(),
             kicks: self.handling.kicking.is_some(),
             role: self.role.0,
             state: (self.activity.acting_as, self.activity.state),
         }
     }
+}
+
+/// Whether a robot that is on the pitch plays: switched on, with wheels or legs that work, and not penalised.
+pub(super) fn plays(robot: &Robot, orders: &Orders) -> bool {
+    robot.health.drives() && orders.state == RobotState::Playing
 }
 
 /// All that the counters of play look at.

@@ -1,7 +1,5 @@
 //! From a treatment, a list of changes, to the match that is played.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -18,6 +16,7 @@ use crate::game::requests::Request;
 use crate::game::{Choice, Match, MatchPlan, file_named};
 use crate::ids::Team;
 use crate::lab::scenario::{Dependency, TimedEvent, check_event_of_match, has, requests, switch_off};
+use crate::lab::unbroken::unbroken;
 use crate::strategy::Strategy;
 
 /// A treatment that can be played.
@@ -68,7 +67,7 @@ impl TreatmentPlan {
     /// Plays the match with a seed. One that breaks the program is an error that says so.
     pub fn play(&self, seed: u64, swapped: bool) -> Result<MatchResult, String> {
         let plan = MatchPlan { seed, ..self.plans[usize::from(swapped)].clone() };
-        catch_unwind(AssertUnwindSafe(|| play(&plan, swapped))).map_err(|cause| message(&*cause))
+        unbroken(|| play(&plan, swapped))
     }
 
     /// The strategy of the team that is named second.
@@ -87,12 +86,6 @@ fn play(plan: &MatchPlan, swapped: bool) -> MatchResult {
     let values = sides.map(|team| Metric::ALL.iter().map(|metric| metric.value(figures, team)).collect());
     let (record, clock) = (game.record(), game.clock());
     MatchResult { digest: record.digest, seconds: clock.now(), played: record.played, values }
-}
-
-/// What a panic says.
-fn message(cause: &(dyn Any + Send)) -> String {
-    let text = cause.downcast_ref::<&str>().map(|text| (*text).to_owned());
-    text.or_else(|| cause.downcast_ref::<String>().cloned()).unwrap_or_else(|| "the match broke off".into())
 }
 
 /// The files that are other than in the asset folder.

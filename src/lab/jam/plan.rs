@@ -2,15 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use ron::ser::PrettyConfig;
-
 use super::harm::Harm;
 use super::report::JamReport;
 use super::search::{Interfered, JamEnd, Jammed, search};
-use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{Act, FaultRule, RadioRecord, Transmission, Which};
 use crate::comms::tcm::DataType;
-use crate::data::{AssetFolder, DataError, ron_options};
+use crate::data::{AssetFolder, DataError};
 use crate::game::record::Invariants;
 use crate::game::{Match, MatchPlan};
 use crate::ids::{RobotId, Team};
@@ -101,7 +98,7 @@ impl JamPlan {
             ..self.file.clone()
         };
         worst.faults.extend(rules(packets));
-        ron_options().to_string_pretty(&worst, PrettyConfig::default().depth_limit(3)).ok()
+        worst.text().ok()
     }
 
     fn play(&self, set: &[Interfered]) -> Jammed {
@@ -145,7 +142,7 @@ impl JamPlan {
                 is_later = (kind, from, to, nth) == (last.kind, last.from, last.to, last.nth);
                 continue;
             }
-            let is_step = matches!(packet.message(), Some(TeamMessage::RoleSwap(_) | TeamMessage::Book(_)));
+            let is_step = packet.message().is_some_and(|message| message.is_step());
             if from.team == Team::Home && (is_step || self.choice.all_kinds) {
                 let acts = [Some(Act::Drop), self.choice.delay.map(Act::Delay)];
                 let interfered = |act| Interfered { kind, from, to, nth, act, sent };

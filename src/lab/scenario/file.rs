@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use bevy::prelude::Vec2;
+use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
 
 use super::condition::Expectation;
 use super::event::{Dependency, TimedEvent};
 use crate::comms::radio::FaultRule;
-use crate::data::{DataError, Field, Source};
+use crate::data::{DataError, Field, Source, ron_options};
 use crate::game::TeamFile;
 use crate::strategy::teamwork::TeamworkFile;
 
@@ -78,6 +79,14 @@ impl ScenarioFile {
         }
         let variants = self.variants.iter();
         variants.map(|(name, variant)| (Some(name.as_str()), variant.clone().over(self.clone()))).collect()
+    }
+
+    /// As the text of a file.
+    ///
+    /// # Errors
+    /// If a number of it cannot be written.
+    pub fn text(&self) -> Result<String, ron::Error> {
+        ron_options().to_string_pretty(self, PrettyConfig::default().depth_limit(3))
     }
 
     /// The text that tells where the fields of a variant of this file stand in it.
@@ -280,7 +289,6 @@ mod tests {
     use super::super::{Area, Condition, Event, Expectation, Packets, Thing};
     use super::*;
     use crate::comms::tcm::DataType;
-    use crate::data::ron_options;
     use crate::geometry::Zone;
     use crate::ids::{RobotId, Team};
     use crate::robot::Restart;

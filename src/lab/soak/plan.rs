@@ -1,17 +1,15 @@
 //! From strategies to matches in which everything goes wrong, to what broke.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
-
-use ron::ser::PrettyConfig;
 
 use super::case::{LENGTH, SoakPool, SoakSide};
 use super::shrink::shrink;
-use crate::data::{AssetFolder, AssetKind, AssetTexts, DataError, no_such, ron_options};
+use crate::data::{AssetFolder, AssetKind, AssetTexts, DataError, no_such};
 use crate::game::{Choice, MatchPlan};
 use crate::ids::Team;
 use crate::lab::all_cores::on_all_cores;
 use crate::lab::scenario::{Expectation, Failure, ScenarioFile, ScenarioPlan, ScenarioRef};
+use crate::lab::unbroken::unbroken;
 use crate::strategy::teamwork::Protocol;
 
 /// What is to be soaked.
@@ -155,11 +153,14 @@ impl SoakPlan {
     /// What broke first in a match, if anything did.
     fn play(&self, file: &ScenarioFile) -> Result<Option<Failure>, DataError> {
         let path = PathBuf::from("soak.ron");
-        let texts = AssetTexts::from([(path.clone(), text(file))]);
+        let texts = AssetTexts::from([(path.clone(), file.text().unwrap_or_default())]);
         let plan = ScenarioPlan::read(&self.assets.with_texts(texts), &ScenarioRef::from(path))?;
-        let Ok(report) = catch_unwind(AssertUnwindSafe(|| plan.run(None))) else {
-            let (expectation, reason) = (BREAKS_OFF.to_owned(), "the program has a fault".to_owned());
-            return Ok(Some(Failure { expectation, tick: 0, seconds: 0.0, reason }));
+        let report = match unbroken(|| plan.run(None)) {
+            Ok(report) => report,
+            Err(reason) => {
+                let expectation = BREAKS_OFF.to_owned();
+                return Ok(Some(Failure { expectation, tick: 0, seconds: 0.0, reason }));
+            }
         };
         let failures = report.runs.into_iter().flat_map(|run| run.verdict.failures);
         Ok(failures.min_by_key(|failure| failure.tick))
@@ -169,13 +170,8 @@ impl SoakPlan {
 impl SoakFinding {
     /// The smallest match as a file.
     pub fn text(&self) -> String {
-        text(&self.smallest)
+        self.smallest.text().unwrap_or_default()
     }
-}
-
-fn text(file: &ScenarioFile) -> String {
-    let pretty = PrettyConfig::default().depth_limit(3);
-    ron_options().to_string_pretty(file, pretty).unwrap_or_default()
 }
 
 /// The first moment that an expectation is about, s.
@@ -229,7 +225,7 @@ mod tests {
         assert_eq!(plan.matches(), 52);
         for seed in 0..60 {
             let file = plan.case(seed);
-            let text = text(&file);
+            let text = file.text().expect("it can be written");
             let source = Source::new("soak.ron", text.as_str());
             assert_eq!(source.parse::<ScenarioFile>().expect("it reads back"), file);
             let path = PathBuf::from("soak.ron");

@@ -251,7 +251,7 @@ fn paint_labels(
         for (number, (message, arrow)) in
             numbered.filter(|(_, (message, _))| is_of_a_swap(message.packet.kind) == important)
         {
-            let text = words::label(message);
+            let text = message.label();
             let what = (text.clone(), message.packet.from, message.sent);
             if last.replace(what.clone()) == Some(what) {
                 continue;

@@ -2,21 +2,11 @@
 
 use crate::app::view::format;
 use crate::clock::Clock;
-use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{Transmission, TransmissionState};
-
-/// What stands at an arrow: the kind, and which attempt it belongs to.
-pub fn label(message: &Transmission) -> String {
-    let kind = message.packet.kind;
-    match message.packet.message() {
-        Some(TeamMessage::RoleSwap(message)) => format!("{kind} {}", message.sequence()),
-        _ => kind.to_string(),
-    }
-}
 
 /// All that there is to tell of a message.
 pub fn story(message: &Transmission, clock: &Clock) -> String {
-    let head = format!("{} from {} to {}", label(message), message.packet.from, message.packet.to);
+    let head = format!("{} from {} to {}", message.label(), message.packet.from, message.packet.to);
     let sent = format!("sent at {}", format::moment(message.sent, clock.dt));
     let late = if message.late { ", late" } else { "" };
     let doubled = if message.doubled { "\na second copy was under way too" } else { "" };
@@ -35,7 +25,7 @@ pub fn story(message: &Transmission, clock: &Clock) -> String {
 mod tests {
     use super::super::samples::transmitted;
     use super::*;
-    use crate::comms::messages::{GoalSide, GoalieBehaviour, GoalieNews};
+    use crate::comms::messages::{GoalSide, GoalieBehaviour, GoalieNews, TeamMessage};
     use crate::comms::radio::Loss;
     use crate::protocol::role_swap::{self, Holding};
 
@@ -44,13 +34,13 @@ mod tests {
         let clock = Clock::new(60.0);
         let ack = role_swap::Message::AckLock { sequence: 7, holds: Holding::Role(1) };
         let arrived = transmitted(&TeamMessage::RoleSwap(ack), 2, 1, 60, TransmissionState::Arrived(63));
-        assert_eq!(label(&arrived), "ACKLOCK 7");
+        assert_eq!(arrived.label(), "ACKLOCK 7");
         let told = "ACKLOCK 7 from home 2 to home 1\nsent at 1.00 s\narrived after 50 ms";
         assert_eq!(story(&arrived, &clock), told);
         let (behaviour, side) = (GoalieBehaviour::Leaving, GoalSide::Left);
         let news = TeamMessage::Goalie(GoalieNews { time: 0, robot: 2, behaviour, side });
         let lost = transmitted(&news, 2, 1, 60, TransmissionState::Lost(Loss::Jammed));
-        assert_eq!(label(&lost), "goalie");
+        assert_eq!(lost.label(), "goalie");
         assert!(story(&lost, &clock).ends_with("lost: jammed"));
     }
 }

@@ -9,7 +9,6 @@ use smallvec::SmallVec;
 
 use super::invariant::{EVERY, Invariant};
 use crate::clock::Clock;
-use crate::comms::messages::TeamMessage;
 use crate::comms::radio::{RadioRecord, Transmission, TransmissionState};
 use crate::ids::{RobotId, Team};
 use crate::strategy::Strategies;
@@ -148,11 +147,10 @@ impl Breach {
 /// "tick 120: LOCK 5 from home 1 to home 2, lost: by chance"; nothing for other messages than those of a protocol.
 fn step_in_words(sent: &Transmission) -> Option<String> {
     let Transmission { packet, sent: tick, state, .. } = sent;
-    let what = match packet.message()? {
-        TeamMessage::RoleSwap(message) => format!("{} {}", packet.kind, message.sequence()),
-        TeamMessage::Book(_) => packet.kind.to_string(),
-        _ => return None,
-    };
+    if !packet.message()?.is_step() {
+        return None;
+    }
+    let what = sent.label();
     let fate = match state {
         TransmissionState::InFlight(due) => format!("to arrive at tick {due}"),
         TransmissionState::Arrived(at) => format!("arrived at tick {at}"),

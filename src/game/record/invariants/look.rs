@@ -11,12 +11,13 @@ use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
 use crate::game::record::figures::Record;
 use crate::game::record::overlap::TOLERANCE;
+use crate::game::record::play_tick;
 use crate::geometry::{Pose, Twist};
 use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::{Booking, BookingStatus, Swapping, TeamModel, kick_off_roles};
 use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
-use crate::robot::{OffPitch, Orders, Robot, RobotState};
+use crate::robot::{OffPitch, Orders, Robot};
 use crate::strategy::teamwork::Mechanism;
 use crate::strategy::{Role, Strategies, Strategy};
 use crate::world::ball::Ball;
@@ -54,8 +55,35 @@ const SEES: f32 = 0.5;
 type Of = (Invariant, Robots);
 
 impl LookView<'_, '_> {
+    /// Everything that fails to hold in the tick.
     pub(super) fn failing(
         &self,
+        clock: &Clock,
+        strategies: &Strategies,
+        seen: (&Record, &RadioRecord),
+        off: &mut SmallVec<[(RobotId, u64); 4]>,
+    ) -> Vec<Failing> {
+        let mut robots: SmallVec<[LookedAtItem; 16]> = self.robots.iter().collect();
+        robots.sort_unstable_by_key(|it| *it.id);
+        let (ball, motion) = *self.ball;
+        let look = InvariantLook { pitch: &self.pitch, state: &self.state, book: &self.book, robots };
+        look.failing((ball, motion), clock, strategies, seen, off)
+    }
+}
+
+/// One look.
+struct InvariantLook<'a, 'w, 's> {
+    pitch: &'a Pitch,
+    state: &'a MatchState,
+    book: &'a RuleBook,
+    /// In order.
+    robots: SmallVec<[LookedAtItem<'w, 's>; 16]>,
+}
+
+impl InvariantLook<'_, '_, '_> {
+    fn failing(
+        &self,
+        (ball, motion): (&Pose, &Twist),
         clock: &Clock,
         strategies: &Strategies,
         (record, radio): (&Record, &RadioRecord),
@@ -67,7 +95,6 @@ impl LookView<'_, '_> {
                 failing.push(Failing { invariant, team, robots });
             }
         };
-        let (ball, motion) = *self.ball;
         let is_finite = |pose: &Pose, twist: &Twist| pose.is_finite() && twist.is_finite();
         note(None, (Invariant::Finite, Robots::new()), !is_finite(ball, motion));
         note(None, (Invariant::InTheWorld, Robots::new()), !self.holds(ball.position));
@@ -93,9 +120,7 @@ impl LookView<'_, '_> {
     /// The robots of a team of which something is so, in order.
     fn of(&self, team: Team, is_so: impl Fn(&LookedAtItem) -> bool) -> Robots {
         let found = self.robots.iter().filter(|it| it.id.team == team && is_so(it));
-        let mut found: Robots = found.map(|it| *it.id).collect();
-        found.sort_unstable();
-        found
+        found.map(|it| *it.id).collect()
     }
 
     fn holds(&self, point: Vec2) -> bool {
@@ -153,7 +178,7 @@ impl LookView<'_, '_> {
         let driving = self.of(team, |it| plays(it) && record.pursuit[team.index()].drives(it.id.number));
         if strategy.teamwork.ball_booking.is_some() && strategy.teamwork.has(Mechanism::BallBooking) {
             let is_booked = self.robots.iter().any(|it| {
-                it.id.team == team && plays(&it) && it.booking.is_some_and(|booking| booking.0.goes())
+                it.id.team == team && plays(it) && it.booking.is_some_and(|booking| booking.0.goes())
             });
             let several = if is_booked && driving.len() > 1 { driving.clone() } else { Robots::new() };
             note((Invariant::OneAtBookedBall, several));
@@ -181,5 +206,5 @@ impl LookView<'_, '_> {
 }
 
 fn plays(it: &LookedAtItem) -> bool {
-    !it.off_pitch && it.robot.health.drives() && it.orders.state == RobotState::Playing
+    !it.off_pitch && play_tick::plays(it.robot, it.orders)
 }
