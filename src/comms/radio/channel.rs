@@ -14,11 +14,15 @@ use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
+use super::air::{Air, OffAir};
 use super::faults::{Act, FaultRules};
 use super::interference::{Interference, Obstacle};
+use super::loss_model::LinkFade;
 use super::packet::Packet;
 use super::preset::{Budget, Radio, SharedBy};
+use super::stalls::Stall;
 use crate::clock::Clock;
+use crate::comms::tcm::Datagram;
 use crate::ids::RobotId;
 use crate::rng::{Dice, DiceStirred, Seed};
 
@@ -49,7 +53,7 @@ impl Delivery {
 pub struct Arrival {
     /// The tick, later than that of the sending.
     pub due: u64,
-    /// Whether it belongs to the late tail or was held up by interference or by a fault.
+    /// Whether it belongs to the late tail or was held up by a stall, by interference or by a fault.
     pub late: bool,
     pub duplicate: bool,
 }
@@ -74,6 +78,8 @@ pub enum Loss {
     Chance,
     /// The extra loss of the interference.
     Extra,
+    /// It overlapped with another frame on the channel that all share, or too many of its sender's were waiting.
+    Air,
     /// The receiver could not hear when it arrived.
     Deaf,
 }
@@ -85,13 +91,16 @@ pub struct Channel {
     radio: Radio,
     links: BTreeMap<(RobotId, RobotId), LinkState>,
     buckets: BTreeMap<(Option<RobotId>, Option<RobotId>), Bucket>,
+    air: Air,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 struct LinkState {
     dice: Dice,
-    /// The state of the loss in bursts.
-    bad: bool,
+    /// Those of its stalls: packets take as many of the others, however often it stalls.
+    stall_dice: Dice,
+    fade: LinkFade,
+    stall: Option<Stall>,
 }
 
 /// All the chance that one packet can meet.
@@ -119,7 +128,7 @@ struct Bucket {
 
 impl Loss {
     /// All reasons, in their order.
-    pub const ALL: [Loss; 9] = [
+    pub const ALL: [Loss; 10] = [
         Loss::Mute,
         Loss::Fault,
         Loss::Budget,
@@ -128,6 +137,7 @@ impl Loss {
         Loss::Range,
         Loss::Chance,
         Loss::Extra,
+        Loss::Air,
         Loss::Deaf,
     ];
 
@@ -148,6 +158,7 @@ impl fmt::Display for Loss {
             Loss::Range => "out of range",
             Loss::Chance => "chance",
             Loss::Extra => "extra loss",
+            Loss::Air => "collision",
             Loss::Deaf => "deaf",
         })
     }
@@ -156,7 +167,7 @@ impl fmt::Display for Loss {
 impl Channel {
     /// The channel of a match with this seed.
     pub fn new(seed: Seed, radio: Radio) -> Channel {
-        Channel { seed, radio, links: BTreeMap::new(), buckets: BTreeMap::new() }
+        Channel { seed, radio, links: BTreeMap::new(), buckets: BTreeMap::new(), air: Air::new(seed) }
     }
 
     /// The preset in force.
@@ -170,14 +181,26 @@ impl Channel {
         self.radio = radio;
         self.buckets.clear();
         for link in self.links.values_mut() {
-            link.bad = false;
+            (link.fade, link.stall) = (LinkFade::default(), None);
         }
     }
 
     /// Another chance from here on, also on links that nothing has been sent on.
     pub fn stir(&mut self, stirred: DiceStirred) {
-        self.links.values_mut().for_each(|link| link.dice.stir(stirred));
+        for link in self.links.values_mut() {
+            link.dice.stir(stirred);
+            link.stall_dice.stir(stirred);
+        }
+        self.air.stir(stirred);
         self.seed = Seed(self.seed.0 ^ stirred.0);
+    }
+
+    /// What comes off the air in the clock's present tick, with what robots say in it. Where frames take no time, that is all of it.
+    pub fn off_air(&mut self, said: Vec<Datagram>, clock: &Clock) -> Vec<OffAir> {
+        match &self.radio.air {
+            Some(airtime) => self.air.tick(airtime, said, clock),
+            None => said.into_iter().map(OffAir::Clear).collect(),
+        }
     }
 
     /// Sends a packet over so many metres in the clock's present tick. Every packet that finds its bytes in the bucket is charged, also if
@@ -193,10 +216,15 @@ impl Channel {
         let seed = self.seed;
         let link = self.links.entry((packet.from, packet.to)).or_insert_with(|| LinkState {
             dice: Dice::new(seed, &format!("radio to {}", packet.to), Some(packet.from)),
-            bad: false,
+            stall_dice: Dice::new(seed, &format!("stalls to {}", packet.to), Some(packet.from)),
+            fade: LinkFade::default(),
+            stall: None,
         });
         let rolls = Rolls::new(&mut link.dice);
-        let by_chance = self.radio.loss.loses(&mut link.bad, rolls.change, rolls.loss);
+        let by_chance = self.radio.loss.loses(&mut link.fade, clock.now(), rolls.change, rolls.loss);
+        let stalls = self.radio.stalls.as_ref();
+        let stalled =
+            stalls.map_or(0.0, |stalls| stalls.hold_up(&mut link.stall, clock.now(), &mut link.stall_dice));
         let acts = faults.apply(packet, clock.now());
         let paid = self.pay(packet, clock.now());
 
@@ -221,7 +249,7 @@ impl Channel {
 
         let hold_ups =
             acts.iter().filter_map(|act| if let Act::Delay(seconds) = act { Some(*seconds) } else { None });
-        let held_up = hold_ups.sum::<f32>() + interference.extra_delay;
+        let held_up = hold_ups.sum::<f32>() + interference.extra_delay + stalled;
         let arrival = |delay: f32, late: bool, duplicate: bool| Arrival {
             due: clock.tick.saturating_add(clock.ticks(delay)),
             late,

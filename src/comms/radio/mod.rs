@@ -1,13 +1,16 @@
 //! The simulated radio, a carrier of the TCM's datagrams: in the Deliver stage it brings those that are due to their robots, in
 //! the Transmit stage it puts others on air. A datagram in flight is an entity.
 
+mod air;
 mod channel;
 mod faults;
 mod hand;
 mod interference;
+mod loss_model;
 mod packet;
 mod preset;
 mod record;
+mod stalls;
 #[cfg(test)]
 mod tests;
 
@@ -15,8 +18,9 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
+pub use air::{Air, Airtime, OffAir};
 pub use channel::{Channel, Delivery, Loss};
-pub use faults::{Act, FaultRule, FaultRules, Which};
+pub use faults::{Act, FaultRule, FaultRules, Which, just_before};
 pub(crate) use hand::{deliver_packet, drop_packet};
 pub use interference::{Interference, Partition};
 pub use packet::{InFlight, Packet};
@@ -102,18 +106,27 @@ pub(crate) fn transmit_datagrams(
     robots: Query<(&RobotId, &Robot, &Pose)>,
 ) {
     radio.record.forget(&clock);
-    for datagram in on_air.0.drain(..) {
-        let robot = |wanted: RobotId| robots.iter().find(|(id, ..)| **id == wanted);
+    let robot = |wanted: RobotId| robots.iter().find(|(id, ..)| **id == wanted);
+    let mut said = std::mem::take(&mut on_air.0);
+    said.retain(|datagram| {
+        let is_mute = robot(datagram.from).is_some_and(|(_, sender, _)| sender.health.mute);
+        if let Some(packet) = Packet::of(datagram).filter(|_| is_mute) {
+            radio.record.drop_muted(&packet, clock.tick);
+        }
+        !is_mute
+    });
+    for off_air in radio.channel.off_air(said, &clock) {
+        let (datagram, is_clear) = match off_air {
+            OffAir::Clear(datagram) => (datagram, true),
+            OffAir::Collided(datagram) | OffAir::Crowded(datagram) => (datagram, false),
+        };
         // Computers have no antenna in a simulated match.
         let Some(packet) = Packet::of(&datagram) else { continue };
-        let (Some((_, sender, from)), Some((.., to))) = (robot(packet.from), robot(packet.to)) else {
-            continue;
-        };
-        if sender.health.mute {
-            radio.record.drop_muted(&packet, clock.tick);
+        let (Some((.., from)), Some((.., to))) = (robot(packet.from), robot(packet.to)) else { continue };
+        if is_clear {
+            radio.send(packet, from.position.distance(to.position), &clock, &mut commands);
         } else {
-            let distance = from.position.distance(to.position);
-            radio.send(packet, distance, &clock, &mut commands);
+            radio.record.sent(&packet, &Delivery::lost(Loss::Air), clock.tick);
         }
     }
 }

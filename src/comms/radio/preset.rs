@@ -4,6 +4,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::air::Airtime;
+use super::loss_model::LossModel;
+use super::stalls::Stalls;
 use crate::data::{Bound, Fault, Validate, check_all, ensure};
 
 /// The radio that the robots of a match share.
@@ -24,12 +27,18 @@ pub struct Radio {
     /// Some messages take much longer than the others.
     #[serde(default)]
     pub late: Option<LateTail>,
+    /// Each directed link stalls now and then.
+    #[serde(default)]
+    pub stalls: Option<Stalls>,
     /// Nothing is heard farther away, m. Unlimited if left out.
     #[serde(default)]
     pub range: Option<f32>,
     /// Unlimited if left out.
     #[serde(default)]
     pub budget: Option<Budget>,
+    /// Frames take time on a channel that all share; none if left out.
+    #[serde(default)]
+    pub air: Option<Airtime>,
 }
 
 /// From sending to arrival: a fixed time and a jitter of exponential distribution, so that messages overtake each other.
@@ -40,25 +49,6 @@ pub struct Latency {
     pub fixed: f32,
     /// Mean of what is added to `fixed`.
     pub jitter: f32,
-}
-
-/// How messages are lost by chance, on each directed link for itself.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum LossModel {
-    /// No message is lost.
-    None,
-    /// Each message with this chance.
-    Independent(f32),
-    /// A link is good or bad, and may change with each message. It begins good.
-    GilbertElliott {
-        /// Chance per message that a good link turns bad before the message is sent.
-        to_bad: f32,
-        /// Chance per message that a bad link turns good before the message is sent.
-        to_good: f32,
-        loss_in_good: f32,
-        loss_in_bad: f32,
-    },
 }
 
 /// A share of the messages takes between `min` and `max` longer, evenly spread.
@@ -96,21 +86,6 @@ pub enum SharedBy {
     All,
 }
 
-impl LossModel {
-    /// Whether the next message of a link is lost. `bad` is the link's state; the two numbers are fresh and uniform in
-    /// [0, 1), one for the link's change and one for the message.
-    pub(super) fn loses(&self, bad: &mut bool, change: f32, message: f32) -> bool {
-        match *self {
-            LossModel::None => false,
-            LossModel::Independent(chance) => message < chance,
-            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => {
-                *bad = if *bad { change >= to_good } else { change < to_bad };
-                message < if *bad { loss_in_bad } else { loss_in_good }
-            }
-        }
-    }
-}
-
 impl Validate for Radio {
     fn validate(&self) -> Result<(), Fault> {
         check_all([
@@ -118,15 +93,9 @@ impl Validate for Radio {
             ("latency.jitter", self.latency.jitter, Bound::DELAY),
             ("duplication", self.duplication, Bound::SHARE),
         ])?;
-        match self.loss {
-            LossModel::None => {}
-            LossModel::Independent(chance) => Bound::SHARE.check("loss", chance)?,
-            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => check_all([
-                ("loss.to_bad", to_bad, Bound::SHARE),
-                ("loss.to_good", to_good, Bound::SHARE),
-                ("loss.loss_in_good", loss_in_good, Bound::SHARE),
-                ("loss.loss_in_bad", loss_in_bad, Bound::SHARE),
-            ])?,
+        self.loss.validate_as("loss")?;
+        if let Some(stalls) = self.stalls {
+            stalls.validate_as("stalls")?;
         }
         if let Some(LateTail { share, min, max }) = self.late {
             check_all([
@@ -139,6 +108,9 @@ impl Validate for Radio {
         if let Some(range) = self.range {
             Bound::LENGTH.positive().check("range", range)?;
         }
+        if let Some(air) = self.air {
+            air.validate_as("air")?;
+        }
         if let Some(budget) = self.budget {
             check_all([
                 ("budget.bytes_per_second", budget.bytes_per_second, Bound::BYTES.positive()),
@@ -149,53 +121,8 @@ impl Validate for Radio {
     }
 }
 
-/// What a model promises, for the tests to hold it to.
-#[cfg(test)]
-impl LossModel {
-    /// The share of the messages that is lost in the long run.
-    pub(super) fn mean_loss(&self) -> f32 {
-        match *self {
-            LossModel::None => 0.0,
-            LossModel::Independent(chance) => chance,
-            LossModel::GilbertElliott { loss_in_good, loss_in_bad, .. } => {
-                let bad = self.bad_share();
-                bad * loss_in_bad + (1.0 - bad) * loss_in_good
-            }
-        }
-    }
-
-    /// The mean number of messages that are lost in a row: 0 if none is ever lost, infinite if all are.
-    pub(super) fn mean_burst(&self) -> f32 {
-        let lost = self.mean_loss();
-        if lost <= 0.0 {
-            return 0.0;
-        }
-        // The chance that two messages in a row are lost.
-        let both = match *self {
-            LossModel::None | LossModel::Independent(_) => lost * lost,
-            LossModel::GilbertElliott { to_bad, to_good, loss_in_good, loss_in_bad } => {
-                let bad = self.bad_share();
-                let after_bad = (1.0 - to_good) * loss_in_bad + to_good * loss_in_good;
-                let after_good = (1.0 - to_bad) * loss_in_good + to_bad * loss_in_bad;
-                bad * loss_in_bad * after_bad + (1.0 - bad) * loss_in_good * after_good
-            }
-        };
-        lost / (lost - both).max(0.0)
-    }
-
-    /// The share of its messages for which a link is bad; a link that never turns bad never is.
-    fn bad_share(&self) -> f32 {
-        match *self {
-            LossModel::GilbertElliott { to_bad, to_good, .. } if to_bad > 0.0 => to_bad / (to_bad + to_good),
-            _ => 0.0,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-
     use super::*;
     use crate::data::ron_options;
 
@@ -276,6 +203,10 @@ mod tests {
         assert_eq!(bad_field(|r| r.latency.jitter = f32::NAN), "latency.jitter");
         assert_eq!(bad_field(|r| r.loss = LossModel::Independent(1.5)), "loss");
         assert_eq!(bad_field(|r| r.loss = elliott(-0.1)), "loss.to_bad");
+        let fading = LossModel::Fading { good: 1.0, bad: 0.0, loss_in_good: 0.0, loss_in_bad: 1.0 };
+        assert_eq!(bad_field(|r| r.loss = fading), "loss.bad");
+        let stalls = Stalls { every: 1.0, least: 0.1, most: 0.05, shape: 1.0 };
+        assert_eq!(bad_field(|r| r.stalls = Some(stalls)), "stalls.most");
         assert_eq!(bad_field(|r| r.duplication = 2.0), "duplication");
         assert_eq!(bad_field(|r| r.late = tail(-1.0, 1.0)), "late.min");
         assert_eq!(bad_field(|r| r.late = tail(2.0, 1.0)), "late.max");
@@ -283,33 +214,5 @@ mod tests {
         assert_eq!(bad_field(|r| r.range = Some(0.0)), "range");
         assert_eq!(bad_field(|r| r.budget = bucket(0.0, 10.0)), "budget.bytes_per_second");
         assert_eq!(bad_field(|r| r.budget = bucket(10.0, -1.0)), "budget.burst");
-    }
-
-    #[test]
-    fn losses_in_a_row_follow_from_the_chances() {
-        assert_eq!(LossModel::None.mean_burst(), 0.0);
-        assert_eq!(LossModel::Independent(0.0).mean_burst(), 0.0);
-        assert_eq!(LossModel::Independent(0.5).mean_burst(), 2.0);
-        assert_eq!(LossModel::Independent(1.0).mean_burst(), f32::INFINITY);
-    }
-
-    #[test]
-    fn a_link_that_never_turns_bad_loses_as_a_good_one() {
-        let model =
-            LossModel::GilbertElliott { to_bad: 0.0, to_good: 0.0, loss_in_good: 0.1, loss_in_bad: 1.0 };
-        assert_eq!(model.mean_loss(), 0.1);
-    }
-
-    proptest! {
-        #[test]
-        fn a_model_that_loses_as_much_in_both_states_is_independent(
-            to_bad in 0.01f32..1.0,
-            to_good in 0.01f32..1.0,
-            p in 0.01f32..0.9,
-        ) {
-            let model = LossModel::GilbertElliott { to_bad, to_good, loss_in_good: p, loss_in_bad: p };
-            prop_assert!((model.mean_loss() - p).abs() < 1e-5);
-            prop_assert!((model.mean_burst() / LossModel::Independent(p).mean_burst() - 1.0).abs() < 1e-3);
-        }
     }
 }

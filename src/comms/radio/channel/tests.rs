@@ -1,5 +1,6 @@
 //! What the channel does to packets, one by one and whatever the settings.
 
+mod measured;
 mod statistics;
 
 use proptest::prelude::*;
@@ -7,7 +8,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::comms::radio::faults::{FaultRule, Which};
 use crate::comms::radio::interference::Partition;
-use crate::comms::radio::preset::{LateTail, Latency, LossModel};
+use crate::comms::radio::loss_model::LossModel;
+use crate::comms::radio::preset::{LateTail, Latency};
 use crate::comms::tcm::DataType;
 use crate::ids::Team;
 
@@ -78,8 +80,10 @@ fn perfect() -> Radio {
         loss: LossModel::None,
         duplication: 0.0,
         late: None,
+        stalls: None,
         range: None,
         budget: None,
+        air: None,
     }
 }
 

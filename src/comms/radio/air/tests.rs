@@ -1,0 +1,100 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::comms::tcm::{DataType, Peer};
+use crate::ids::Team;
+
+fn said(from: u8, bytes: usize) -> Datagram {
+    let robot = |number: u8| RobotId::new(Team::BOTH[usize::from(number % 2)], number / 2);
+    Datagram {
+        from: robot(from),
+        to: Peer::Team(0),
+        kind: DataType::POSITION,
+        bytes: vec![from; bytes].into(),
+    }
+}
+
+/// The share of datagrams that were heard, and that of those that came off the air by the end, if so many stations each say something
+/// with this probability in each tick.
+fn delivered(airtime: &Airtime, stations: u8, bytes: usize, probability: f32) -> (f64, f64) {
+    let (mut air, mut clock, mut dice) =
+        (Air::new(Seed(7)), Clock::new(60.0), Dice::new(Seed(8), "talk", None));
+    let (mut all, mut off, mut clear) = (0, 0, 0);
+    for _ in 0..6_000 {
+        let talk: Vec<Datagram> =
+            (0..stations).filter(|_| dice.chance(probability)).map(|from| said(from, bytes)).collect();
+        all += talk.len();
+        let fates = air.tick(airtime, talk, &clock);
+        off += fates.len();
+        clear += fates.iter().filter(|fate| matches!(fate, OffAir::Clear(_))).count();
+        clock.tick += 1;
+    }
+    (clear as f64 / off.max(1) as f64, off as f64 / all.max(1) as f64)
+}
+
+#[test]
+fn who_speaks_alone_is_always_heard() {
+    let (heard, off) = delivered(&Airtime::default(), 1, 100, 1.0);
+    assert_eq!((heard, off), (1.0, 1.0));
+}
+
+#[test]
+fn the_more_robots_speak_the_more_of_them_collide() {
+    let heard = [2, 8, 22].map(|stations| delivered(&Airtime::default(), stations, 200, 0.25).0);
+    assert!(heard[0] > 0.97 && heard[0] > heard[1] && heard[1] > heard[2] && heard[2] > 0.3, "{heard:?}");
+}
+
+#[test]
+fn a_channel_that_is_full_loses_what_waits_for_too_long() {
+    // 60 frames a second of 13 ms.
+    let slow = Airtime { bits_per_second: 1e5, queue: 3, ..Airtime::default() };
+    let (heard, _) = delivered(&slow, 4, 100, 1.0);
+    assert!(heard < 0.4, "{heard}");
+}
+
+#[test]
+fn what_is_said_to_all_is_one_frame() {
+    let mut air = Air::new(Seed(7));
+    let bytes: std::sync::Arc<[u8]> = vec![1; 10_000].into();
+    let to_all: Vec<Datagram> = (0..3).map(|_| Datagram { bytes: bytes.clone(), ..said(0, 0) }).collect();
+    let slow = Airtime { queue: 1, ..Airtime::default() };
+    let fates = air.tick(&slow, to_all, &Clock::new(60.0));
+    assert!(fates.len() == 3 && fates.iter().all(|fate| matches!(fate, OffAir::Clear(_))), "{fates:?}");
+}
+
+#[test]
+fn two_that_begin_in_one_slot_collide_and_others_wait_for_them() {
+    let airtime = Airtime { window: 0, ..Airtime::default() };
+    let (mut air, clock) = (Air::new(Seed(7)), Clock::new(60.0));
+    air.free = 0.1;
+    // The channel is busy for all of them, and without slots to draw they begin together.
+    let fates = air.tick(&airtime, vec![said(0, 100), said(1, 100)], &clock);
+    assert!(fates.is_empty());
+    let later = Clock { tick: 6, ..clock };
+    let fates = air.tick(&airtime, Vec::new(), &later);
+    assert!(fates.len() == 2 && fates.iter().all(|fate| matches!(fate, OffAir::Collided(_))), "{fates:?}");
+}
+
+proptest! {
+    #[test]
+    fn every_datagram_comes_off_the_air_once(
+        talk in prop::collection::vec(prop::collection::vec((0u8..8, 1usize..400), 0..10), 1..40),
+        window in 0u16..40,
+        queue in 1usize..6,
+    ) {
+        let airtime = Airtime { window, queue, ..Airtime::default() };
+        let (mut air, mut clock) = (Air::new(Seed(1)), Clock::new(60.0));
+        let all: usize = talk.iter().map(Vec::len).sum();
+        let mut off = 0;
+        for tick in talk {
+            let tick = tick.into_iter().map(|(from, bytes)| said(from, bytes)).collect();
+            off += air.tick(&airtime, tick, &clock).len();
+            clock.tick += 1;
+        }
+        for _ in 0..200 {
+            off += air.tick(&airtime, Vec::new(), &clock).len();
+            clock.tick += 1;
+        }
+        prop_assert_eq!(off, all);
+    }
+}
