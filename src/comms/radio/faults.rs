@@ -85,13 +85,11 @@ impl Which {
 impl FaultRule {
     /// Whatever a robot sends of a kind in some ticks is heard by nobody.
     pub fn silencing(kind: DataType, from: RobotId, ticks: Range<u64>, dt: f32) -> FaultRule {
-        // Between two ticks, where rounding does not matter.
-        let before = |tick: u64| ((tick as f64 - 0.5) * f64::from(dt)).max(0.0) as f32;
         FaultRule {
             kind: Some(kind),
             from: Some(from),
             to: None,
-            between: Some((before(ticks.start), before(ticks.end))),
+            between: Some((just_before(ticks.start, dt), just_before(ticks.end, dt))),
             which: Which::All,
             act: Act::Drop,
         }
@@ -125,6 +123,11 @@ impl Validate for FaultRule {
             Act::Drop => Ok(()),
         }
     }
+}
+
+/// A time between a tick and the one before it, s, where rounding does not matter.
+pub fn just_before(tick: u64, dt: f32) -> f32 {
+    ((tick as f64 - 0.5) * f64::from(dt)).max(0.0) as f32
 }
 
 impl FaultRules {

@@ -9,8 +9,9 @@ pub struct Span {
     pub total: f64,
     /// At a stretch, s.
     pub longest: f64,
+    /// For how long it holds by now, s.
     #[serde(skip)]
-    now: f64,
+    pub now: f64,
 }
 
 impl Span {

@@ -1,78 +1,114 @@
-//! From a scenario to the losses that do harm to it.
+//! From a scenario, or from a moment of a recorded match, to the interference that does harm to it.
 
-use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::PathBuf;
 
 use super::harm::Harm;
 use super::report::JamReport;
-use super::search::{Interfered, JamEnd, Jammed, search};
-use crate::comms::radio::{Act, FaultRule, RadioRecord, Transmission, Which};
-use crate::comms::tcm::DataType;
+use super::search::{Interfered, JamEnd, search};
+use super::worst::{JamOrigin, WorstCase};
+use crate::clock::Clock;
+use crate::comms::radio::{Act, FaultRule, Which, just_before};
 use crate::data::{AssetFolder, DataError};
-use crate::game::record::Invariants;
 use crate::game::{Match, MatchPlan};
-use crate::ids::{RobotId, Team};
-use crate::lab::scenario::{Condition, Expectation, ScenarioFile, ScenarioPlan, ScenarioRef, Seeds};
+use crate::lab::replay::Replay;
+use crate::lab::scenario::{ScenarioFile, ScenarioPlan, ScenarioRef};
+use crate::state::Snapshot;
+
+/// What is played with other radios.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JamStart {
+    /// A scenario.
+    Scenario(ScenarioRef),
+    /// A recorded match.
+    Replay(PathBuf),
+}
 
 /// What is to be done.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JamChoice {
-    /// The scenario.
-    pub scenario: ScenarioRef,
-    /// The seed of its dice; its first one if not given.
+    /// What is played.
+    pub start: JamStart,
+    /// Packets sent before this are left alone, s.
+    pub at: f64,
+    /// It is played for so long from then on, s. If not given, a scenario to its end and a recorded match for 20 s.
+    pub seconds: Option<f64>,
+    /// The seed of a scenario's dice; its first one if not given.
     pub seed: Option<u64>,
     /// How many packets may be interfered with.
     pub budget: usize,
     /// What is to come of it.
     pub harm: Harm,
-    /// Packets may also be this late, s.
-    pub delay: Option<f32>,
+    /// What may be done to each packet.
+    pub acts: Vec<Act>,
     /// Also positions, claims and other news, and not only steps of a protocol.
     pub all_kinds: bool,
-    /// Without the faults that the scenario has itself.
+    /// Without the faults that a scenario has itself.
     pub without_faults: bool,
     /// How many sets of packets of each size are led on to the next.
     pub beam: usize,
 }
 
-/// A scenario whose radio can be made worse.
-#[derive(Clone, Debug)]
+/// A match whose radio can be made worse.
 pub struct JamPlan {
-    /// As it is written, its variant laid over it.
-    file: ScenarioFile,
-    plan: MatchPlan,
-    ticks: u64,
-    choice: JamChoice,
+    pub(super) choice: JamChoice,
+    pub(super) origin: JamOrigin,
+    pub(super) plan: MatchPlan,
+    /// Those in which packets are interfered with and harm is looked for.
+    pub(super) ticks: Range<u64>,
+    /// Before the first of them, if that is not where the match begins.
+    pub(super) snapshot: Option<Snapshot>,
 }
 
-/// Longer scenarios send more than is remembered, s.
+/// More than this is not remembered of what was sent, s.
 const LONGEST: f64 = 55.0;
+/// A recorded match is played on for so long, s.
+const OF_REPLAY: f64 = 20.0;
 
 impl JamPlan {
-    /// Reads the scenario.
+    /// Reads the scenario or the recording, and plays it up to where the search begins.
     ///
     /// # Errors
-    /// If it cannot be read, or is too long.
+    /// If it cannot be read, or takes too long.
     pub fn read(assets: &AssetFolder, choice: &JamChoice) -> Result<JamPlan, DataError> {
-        let read = ScenarioPlan::read(assets, &choice.scenario)?;
-        let file: ScenarioFile = assets.read(&choice.scenario.path)?.parse()?;
-        let variants = file.scenarios().into_iter();
-        let mut variants = variants.filter(|(name, _)| *name == read.origin.variant.as_deref());
-        let mut file = variants.next().map_or_else(|| file.clone(), |(_, variant)| variant);
-        let seed = choice.seed.or_else(|| read.scenario.seeds.first().copied()).unwrap_or(1);
-        let mut plan = read.with_ball_at(read.scenario.first_place(), seed);
+        let (origin, mut plan, end) = match &choice.start {
+            JamStart::Scenario(scenario) => {
+                let (mut file, plan) = read_scenario(assets, scenario, choice.seed)?;
+                if choice.without_faults {
+                    file.faults.clear();
+                }
+                let seconds = f64::from(file.seconds.unwrap_or_default());
+                (JamOrigin::Scenario(Box::new(file)), plan, seconds)
+            }
+            JamStart::Replay(path) => {
+                let replay = Replay::read(path)?;
+                let (plan, _) = replay.plans()?;
+                let recorded = replay.ticks() as f64 * f64::from(Clock::default().dt);
+                if choice.at > recorded {
+                    return Err(DataError::new(path, format!("ends after {recorded:.1} s")));
+                }
+                (JamOrigin::Replay(Box::new(replay.header)), plan, choice.at + OF_REPLAY)
+            }
+        };
         if choice.without_faults {
             plan.faults.clear();
-            file.faults.clear();
         }
-        let game = Match::new(&plan);
-        let ticks = read.scenario.ticks(game.clock().dt);
-        if ticks as f64 * f64::from(game.clock().dt) > LONGEST {
-            return Err(DataError::new(
-                &choice.scenario.path,
-                format!("takes longer than {LONGEST} s, and jam looks at no more"),
-            ));
+        let seconds = choice.seconds.unwrap_or(end - choice.at);
+        let faulty = |message: String| Err(DataError::new(choice.start.path(), message));
+        if seconds > LONGEST {
+            return faulty(format!("takes longer than {LONGEST} s, and jam looks at no more"));
         }
-        Ok(JamPlan { file, plan, ticks, choice: choice.clone() })
+        if seconds <= 0.0 {
+            return faulty(format!("ends after {end} s"));
+        }
+        let mut game = Match::new(&plan);
+        let clock = game.clock();
+        let in_ticks = |seconds: f64| (seconds / f64::from(clock.dt)).round() as u64;
+        let from = in_ticks(choice.at);
+        (0..from).for_each(|_| game.tick());
+        let snapshot = (from > 0).then(|| Snapshot::take(game.world_mut()));
+        let ticks = from..from + in_ticks(seconds);
+        Ok(JamPlan { choice: choice.clone(), origin, plan, ticks, snapshot })
     }
 
     /// Seeks the fewest packets that do harm. `goes_on` is told how many matches were played.
@@ -82,86 +118,57 @@ impl JamPlan {
         JamReport::new(self.plan.name.clone(), harm, budget, searched)
     }
 
-    /// The scenario with the worst radio, as the text of a file that fails; nothing, if there was no harm.
-    pub fn worst(&self, report: &JamReport) -> Option<String> {
+    /// What plays the worst radio again; nothing, if there was no harm.
+    pub fn worst(&self, report: &JamReport) -> Option<WorstCase> {
         let JamEnd::Harmed { packets, .. } = &report.end else { return None };
-        let what = match self.choice.harm {
-            Harm::Broken(invariant) => Condition::Broken { invariant, team: Some(Team::Home) },
-            Harm::GoalAgainst => Condition::Goals { team: Team::Away, at_least: Some(1), at_most: None },
+        let rules = self.rules(packets);
+        match &self.origin {
+            JamOrigin::Scenario(file) => {
+                let from = just_before(self.ticks.start, Clock::default().dt);
+                let because = format!("interfering with {} packets is enough", packets.len());
+                let forbidden = self.choice.harm.forbidden(from, because);
+                WorstCase::of_scenario(file, rules, (self.plan.seed, forbidden))
+            }
+            JamOrigin::Replay(header) => Some(WorstCase::of_replay(header, &self.plan, &self.ticks, rules)),
+        }
+    }
+
+    /// The rules that do this to packets.
+    pub(super) fn rules(&self, packets: &[Interfered]) -> Vec<FaultRule> {
+        let from = self.ticks.start;
+        let counted = (from > 0).then(|| (just_before(from, Clock::default().dt), f32::INFINITY));
+        let rule = |packet: &Interfered| FaultRule {
+            kind: Some(packet.kind),
+            from: Some(packet.from),
+            to: Some(packet.to),
+            between: counted,
+            which: Which::Nth(packet.nth),
+            act: packet.act,
         };
-        let because = format!("{} lost or late packets are enough", packets.len());
-        let mut worst = ScenarioFile {
-            seeds: Some(Seeds::List(vec![self.plan.seed])),
-            may_fail: None,
-            depends_on: None,
-            expect: vec![Expectation::Never { what, from: 0.0, until: None, because }],
-            ..self.file.clone()
-        };
-        worst.faults.extend(rules(packets));
-        worst.text().ok()
-    }
-
-    fn play(&self, set: &[Interfered]) -> Jammed {
-        let mut plan = self.plan.clone();
-        plan.faults.extend(rules(set));
-        let mut game = Match::new(&plan);
-        let mut jammed = Jammed::default();
-        for _ in 0..self.ticks {
-            game.tick();
-            if self.is_harmed(&game) {
-                jammed.harmed = Some(game.clock().tick);
-                break;
-            }
-        }
-        let cover = &game.record().role_cover[Team::Home.index()];
-        jammed.severity =
-            cover.doubled.longest.max(game.record().bookings[Team::Home.index()].several_go.longest);
-        jammed.packets = self.packets(game.world().resource::<RadioRecord>(), set.last());
-        jammed
-    }
-
-    fn is_harmed(&self, game: &Match) -> bool {
-        match self.choice.harm {
-            Harm::Broken(invariant) => {
-                let broken = &game.world().resource::<Invariants>().broken;
-                [Some(Team::Home), None].iter().any(|team| broken.contains_key(&(invariant, *team)))
-            }
-            Harm::GoalAgainst => game.state().score[Team::Away.index()] > 0,
-        }
-    }
-
-    /// The packets of home that were sent after the last one that was interfered with.
-    fn packets(&self, radio: &RadioRecord, last: Option<&Interfered>) -> Vec<Interfered> {
-        let mut counts: BTreeMap<(DataType, RobotId, RobotId), u32> = BTreeMap::new();
-        let (mut packets, mut is_later) = (Vec::new(), last.is_none());
-        for Transmission { packet, sent, .. } in radio.transmissions() {
-            let count = counts.entry((packet.kind, packet.from, packet.to)).or_default();
-            *count += 1;
-            let (kind, from, to, nth, sent) = (packet.kind, packet.from, packet.to, *count, *sent);
-            if let Some(last) = last.filter(|_| !is_later) {
-                is_later = (kind, from, to, nth) == (last.kind, last.from, last.to, last.nth);
-                continue;
-            }
-            let is_step = packet.message().is_some_and(|message| message.is_step());
-            if from.team == Team::Home && (is_step || self.choice.all_kinds) {
-                let acts = [Some(Act::Drop), self.choice.delay.map(Act::Delay)];
-                let interfered = |act| Interfered { kind, from, to, nth, act, sent };
-                packets.extend(acts.into_iter().flatten().map(interfered));
-            }
-        }
-        packets
+        packets.iter().map(rule).collect()
     }
 }
 
-/// The rules that do this to packets.
-fn rules(packets: &[Interfered]) -> Vec<FaultRule> {
-    let rule = |packet: &Interfered| FaultRule {
-        kind: Some(packet.kind),
-        from: Some(packet.from),
-        to: Some(packet.to),
-        between: None,
-        which: Which::Nth(packet.nth),
-        act: packet.act,
-    };
-    packets.iter().map(rule).collect()
+impl JamStart {
+    fn path(&self) -> &PathBuf {
+        match self {
+            JamStart::Scenario(scenario) => &scenario.path,
+            JamStart::Replay(path) => path,
+        }
+    }
+}
+
+/// A scenario as it is written, its variant laid over it, and its first match.
+fn read_scenario(
+    assets: &AssetFolder,
+    scenario: &ScenarioRef,
+    seed: Option<u64>,
+) -> Result<(ScenarioFile, MatchPlan), DataError> {
+    let read = ScenarioPlan::read(assets, scenario)?;
+    let file: ScenarioFile = assets.read(&scenario.path)?.parse()?;
+    let variants = file.scenarios().into_iter();
+    let mut variants = variants.filter(|(name, _)| *name == read.origin.variant.as_deref());
+    let file = variants.next().map_or_else(|| file.clone(), |(_, variant)| variant);
+    let seed = seed.or_else(|| read.scenario.seeds.first().copied()).unwrap_or(1);
+    Ok((file, read.with_ball_at(read.scenario.first_place(), seed)))
 }

@@ -52,7 +52,7 @@ impl Display for JamReport {
             JamEnd::Unharmed => writeln!(f, "no harm was found with {} packets", self.budget)?,
         }
         match self.resilience {
-            Some(resilience) => write!(f, "bears any {resilience} of the losses that were tried"),
+            Some(resilience) => write!(f, "bears whatever was tried with any {resilience} packets"),
             None => write!(f, "bears nothing"),
         }
     }

@@ -1,6 +1,8 @@
 //! Reading a replay.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::block::{Block, Bookmark};
@@ -13,6 +15,9 @@ use crate::game::requests::Request;
 
 /// Behind it, on the first line, comes the version of the program.
 const MAGIC: &str = "touchline replay ";
+const NO_REPLAY: &str = "is not a replay";
+/// No recording is longer, bytes: a match of 20 minutes takes one or two million.
+const LONGEST: u64 = 256 << 20;
 
 /// The first line of a file.
 pub(super) fn first_line() -> String {
@@ -32,13 +37,40 @@ pub struct Replay {
 }
 
 impl Replay {
+    /// Whether a file begins as a replay does.
+    pub fn is_at(path: &Path) -> bool {
+        let mut start = [0; MAGIC.len()];
+        let read = File::open(path).and_then(|mut file| file.read_exact(&mut start));
+        read.is_ok() && start == *MAGIC.as_bytes()
+    }
+
     /// Reads a file.
     ///
     /// # Errors
     /// If it is no replay, one of another version of the program, or damaged. One that was cut off is read as far as it goes.
     pub fn read(path: &Path) -> Result<Replay, DataError> {
-        let bytes = std::fs::read(path).map_err(|error| fault(path, format!("cannot be read: {error}")))?;
-        let rest = after_first_line(&bytes).map_err(|message| fault(path, message))?;
+        let unread = |error: io::Error| fault(path, format!("cannot be read: {error}"));
+        if path.is_dir() {
+            return Err(fault(path, "is a folder, not a file"));
+        }
+        if !Replay::is_at(path) {
+            File::open(path).map_err(unread)?;
+            return Err(fault(path, NO_REPLAY));
+        }
+        let (mut file, mut bytes) = (File::open(path).map_err(unread)?, Vec::new());
+        file.by_ref().take(LONGEST + 1).read_to_end(&mut bytes).map_err(unread)?;
+        if bytes.len() as u64 > LONGEST {
+            return Err(fault(path, format!("is longer than {} MB", LONGEST >> 20)));
+        }
+        Replay::from_bytes(path, &bytes)
+    }
+
+    /// Reads what a file holds.
+    ///
+    /// # Errors
+    /// As [`Replay::read`].
+    pub fn from_bytes(path: &Path, bytes: &[u8]) -> Result<Replay, DataError> {
+        let rest = after_first_line(bytes).map_err(|message| fault(path, message))?;
         let (header, mut rest) = match frame::read::<ReplayHeader>(rest) {
             Framed::Whole(header, rest) => (header, rest),
             Framed::CutOff => return Err(fault(path, "is cut off before the match begins")),
@@ -104,7 +136,7 @@ impl Replay {
 
 /// What comes after the first line, if that is of this version.
 fn after_first_line(bytes: &[u8]) -> Result<&[u8], String> {
-    let no_replay = || "is not a replay".to_owned();
+    let no_replay = || NO_REPLAY.to_owned();
     let rest = bytes.strip_prefix(MAGIC.as_bytes()).ok_or_else(no_replay)?;
     let end = rest.iter().take(100).position(|byte| *byte == b'\n').ok_or_else(no_replay)?;
     let version = String::from_utf8_lossy(&rest[..end]);
