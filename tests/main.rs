@@ -18,6 +18,7 @@ mod golden_digests;
 mod images;
 mod invariants;
 mod jam;
+mod metamorphic;
 mod network;
 mod numbers;
 mod paper_relations;

@@ -138,6 +138,19 @@ impl MatchPlan {
         self.follow(team, read_strategy(assets, names, teamwork_change, kind, (&self.pitch, &self.ball)))
     }
 
+    /// Reads a strategy by its name, for robots that play another one; what the match changes of its own strategy's teamwork means
+    /// nothing for another.
+    pub fn read_other(&self, team: Team, assets: &AssetFolder, name: &str) -> StrategyReading {
+        let TeamPlan { names, teamwork_change, kind, .. } = self.team(team);
+        let mut teamwork_change = teamwork_change.clone();
+        if names.strategy != name {
+            teamwork_change.teamwork = TeamworkFile::default();
+        }
+        let names = TeamFile { strategy: name.into(), ..names.clone() };
+        let on = (&self.pitch, &self.ball);
+        self.follow(team, read_strategy(assets, &names, &teamwork_change, kind, on))
+    }
+
     /// Checks the text of a strategy that was sent under a name, as [`MatchPlan::reread`] does its file.
     ///
     pub fn read_sent(&self, team: Team, name: &str, text: String) -> StrategyReading {

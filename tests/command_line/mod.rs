@@ -5,8 +5,11 @@ mod duel;
 mod experiment;
 mod export;
 mod fit_eyes;
+#[cfg(target_os = "linux")]
+mod hostile;
 #[cfg(unix)]
 mod interrupt;
+mod jam;
 mod league;
 mod options;
 mod output;

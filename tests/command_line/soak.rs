@@ -3,7 +3,7 @@
 use super::{text, touchline};
 
 /// A seed with which the paper's protocol leaves a role doubled.
-const BREAKS: &str = "19";
+const BREAKS: &str = "64";
 
 #[test]
 fn the_papers_swap_is_broken_and_the_smallest_match_that_does_is_a_scenario_that_fails() {
@@ -14,7 +14,7 @@ fn the_papers_swap_is_broken_and_the_smallest_match_that_does_is_a_scenario_that
     let output = touchline(&paper);
     let said = text(&output.stdout);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(said.contains("a role is doubled") && said.contains("with 3 events"), "{said}");
+    assert!(said.contains("a role is doubled") && said.contains("with 1 events"), "{said}");
     let checked = touchline(&["check", found]);
     let said = text(&checked.stdout);
     assert_eq!(checked.status.code(), Some(1), "{said}");

@@ -3,8 +3,8 @@
 use bevy::prelude::Vec2;
 use serde::{Deserialize, Serialize};
 
-use crate::ids::RobotId;
-use crate::robot::Restart;
+use crate::ids::{RobotId, Team};
+use crate::robot::{KickIntent, Restart};
 use crate::strategy::teamwork::Mechanism;
 
 /// Something that happens at a time.
@@ -73,6 +73,25 @@ pub enum Event {
     },
     /// Makes the robot start a role swap: who holds the first role of a pair takes the second.
     InitiateSwap { robot: RobotId, roles: Vec<(String, String)> },
+    /// A person takes the robot over and lets the levers rest.
+    TakeOver(RobotId),
+    /// The person at the controls holds the levers so from now on, each a share of what the robot can do, -1 to 1; positive is ahead
+    /// or to the left. Nothing, if nobody drives the robot.
+    Steer {
+        robot: RobotId,
+        #[serde(default)]
+        throttle: f32,
+        #[serde(default)]
+        aside: f32,
+        #[serde(default)]
+        turn: f32,
+        #[serde(default)]
+        kick: KickIntent,
+    },
+    /// The robot's strategy takes it back.
+    HandBack(RobotId),
+    /// The team plays on with another strategy, by its file's name, or with its own as if that had been read again.
+    Strategy { team: Team, name: String },
 }
 
 impl Event {
@@ -104,6 +123,16 @@ impl Event {
             Event::InitiateSwap { robot, roles } => {
                 Event::InitiateSwap { robot: other(*robot), roles: roles.clone() }
             }
+            Event::TakeOver(robot) => Event::TakeOver(other(*robot)),
+            Event::Steer { robot, throttle, aside, turn, kick } => Event::Steer {
+                robot: other(*robot),
+                throttle: *throttle,
+                aside: *aside,
+                turn: *turn,
+                kick: *kick,
+            },
+            Event::HandBack(robot) => Event::HandBack(other(*robot)),
+            Event::Strategy { team, name } => Event::Strategy { team: team.opponent(), name: name.clone() },
         }
     }
 }

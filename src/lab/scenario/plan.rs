@@ -154,6 +154,7 @@ impl ScenarioPlan {
             ball: &usual.ball,
             teams: teams.each_ref().map(KnownTeam::of),
             radios: assets.names(AssetKind::Radio),
+            strategies: assets.names(AssetKind::Strategy),
         };
         if file.away.is_none() {
             known.teams[1] = KnownTeam::default();

@@ -1,5 +1,7 @@
 //! From the events of a script to the requests of a match.
 
+use std::sync::Arc;
+
 use super::check::{Known, KnownTeam, check_event};
 use super::event::{Event, TimedEvent};
 use crate::clock::{Clock, TICK_HZ};
@@ -11,7 +13,8 @@ use crate::geometry::Pose;
 use crate::ids::RobotId;
 use crate::protocol::role_swap::{Reassignment, RoleIndex};
 use crate::robot::RobotFailure;
-use crate::strategy::Strategy;
+use crate::robot::pilot::Pilot;
+use crate::strategy::{Strategy, StrategyReading};
 
 /// What is asked of a match when, by tick.
 ///
@@ -45,6 +48,7 @@ pub(in crate::lab) fn check_event_of_match(
         ball: &plan.ball,
         teams: plan.teams.each_ref().map(KnownTeam::of),
         radios: assets.names(AssetKind::Radio),
+        strategies: assets.names(AssetKind::Strategy),
     };
     check_event((source, at), event, &known, plan.robots().collect())
 }
@@ -89,6 +93,16 @@ fn request(assets: &AssetFolder, event: &Event, plan: &MatchPlan) -> Result<Requ
             let pair = |(from, to): &(String, String)| Some((role(strategy, from)?, role(strategy, to)?));
             let pairs = roles.iter().filter_map(pair).collect();
             Request::Robot(*robot, RobotChange::Swap(Reassignment::Roles(pairs)))
+        }
+        Event::TakeOver(robot) => Request::TakeOver(*robot),
+        Event::Steer { robot, throttle, aside, turn, kick } => {
+            let pilot = Pilot { throttle: *throttle, aside: *aside, turn: *turn, head: None, kick: *kick };
+            Request::Steer { robot: *robot, pilot }
+        }
+        Event::HandBack(robot) => Request::HandBack(*robot),
+        Event::Strategy { team, name } => {
+            let StrategyReading { strategy, texts, .. } = plan.read_other(*team, assets, name);
+            Request::ChangeStrategy { team: *team, strategy: Arc::new(strategy?), texts }
         }
     })
 }

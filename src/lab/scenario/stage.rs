@@ -64,7 +64,8 @@ pub(super) fn checked(text: &str) -> Result<Scenario, DataError> {
         activities: vec!["search", "acquire", "push"],
     };
     let radios = vec!["lossy".to_owned(), "perfect".to_owned()];
-    let known = Known { pitch: &pitch, ball: &testing::BALL, teams: [team(), team()], radios };
+    let strategies = vec!["zonal".to_owned()];
+    let known = Known { pitch: &pitch, ball: &testing::BALL, teams: [team(), team()], radios, strategies };
     check(&source.parse()?, &source, &known)
 }
 

@@ -232,6 +232,12 @@ impl Display for Event {
                 let changes = roles.iter().map(|(from, to)| format!("{from} becomes {to}"));
                 write!(f, "{robot} starts a role swap: {}", list(changes, ", "))
             }
+            Event::TakeOver(robot) => write!(f, "somebody drives {robot}"),
+            Event::Steer { robot, throttle, turn, .. } => {
+                write!(f, "{robot} is steered: throttle {throttle}, turn {turn}")
+            }
+            Event::HandBack(robot) => write!(f, "nobody drives {robot} any more"),
+            Event::Strategy { team, name } => write!(f, "{team} plays on with {name}"),
         }
     }
 }

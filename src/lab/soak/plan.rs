@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::case::{LENGTH, SoakPool, SoakSide};
+use super::case::LENGTH;
+use super::pool::{SoakPool, SoakSide};
 use super::shrink::shrink;
 use crate::data::{AssetFolder, AssetKind, AssetTexts, DataError, no_such};
 use crate::game::{Choice, MatchPlan};

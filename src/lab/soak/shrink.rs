@@ -1,4 +1,4 @@
-//! Makes a match in which something breaks as small as it gets: shorter, with fewer faults, over a better radio, without opponents.
+//! Makes a match in which something breaks as small as it gets: with fewer faults and robots, over a better radio, without opponents.
 
 use crate::lab::scenario::ScenarioFile;
 
@@ -27,14 +27,30 @@ pub(super) fn shrink(
     }
     let without_opponents = ScenarioFile { away: None, ..file.clone() };
     attempt(&mut file, without_opponents);
-    // Larger parts of the script first: half of it, a quarter, down to single events; again, until no single one can go.
-    let mut size = file.script.len().next_power_of_two() / 2;
+    fewer(&mut file, &mut attempt, |file| Some(&mut file.script));
+    fewer(&mut file, &mut attempt, |file| Some(&mut file.faults));
+    fewer(&mut file, &mut attempt, |file| file.home.as_mut()?.players.as_mut());
+    fewer(&mut file, &mut attempt, |file| file.away.as_mut()?.players.as_mut());
+    (file, played)
+}
+
+/// Leaves out of a list whatever can go: larger parts first, half of it, a quarter, down to single entries; again, until no single one
+/// can go.
+fn fewer<T>(
+    file: &mut ScenarioFile,
+    attempt: &mut impl FnMut(&mut ScenarioFile, ScenarioFile) -> bool,
+    list: impl Fn(&mut ScenarioFile) -> Option<&mut Vec<T>>,
+) {
+    let entries = |file: &mut ScenarioFile| list(file).map_or(0, |list| list.len());
+    let mut size = entries(file).next_power_of_two().div_ceil(2);
     while size > 0 {
         let (mut at, mut is_smaller) = (0, false);
-        while at < file.script.len() {
+        while at < entries(file) {
             let mut smaller = file.clone();
-            smaller.script.drain(at..(at + size).min(file.script.len()));
-            if attempt(&mut file, smaller) {
+            if let Some(list) = list(&mut smaller) {
+                list.drain(at..(at + size).min(list.len()));
+            }
+            if attempt(file, smaller) {
                 is_smaller = true;
             } else {
                 at += size;
@@ -44,7 +60,6 @@ pub(super) fn shrink(
             size /= 2;
         }
     }
-    (file, played)
 }
 
 #[cfg(test)]

@@ -117,6 +117,8 @@ pub struct Known<'a> {
     pub teams: [KnownTeam<'a>; 2],
     /// The names of all radios.
     pub radios: Vec<String>,
+    /// The names of all strategies.
+    pub strategies: Vec<String>,
 }
 
 /// What a strategy holds.

@@ -63,6 +63,25 @@ impl Checker<'_> {
                 self.robot(*robot, &at.key("InitiateSwap").key("robot"))?;
                 self.swap(robot.team, roles, &at.key("InitiateSwap").key("roles"))
             }
+            Event::TakeOver(robot) => self.robot(*robot, &at.key("TakeOver")),
+            Event::HandBack(robot) => self.robot(*robot, &at.key("HandBack")),
+            Event::Steer { robot, throttle, aside, turn, .. } => {
+                let at = at.key("Steer");
+                self.robot(*robot, &at.key("robot"))?;
+                let levers = [("throttle", throttle), ("aside", aside), ("turn", turn)];
+                let lever = |(name, value): (&str, &f32)| {
+                    self.source.within(&at.key(name), *value, Bound::SHARE.signed())
+                };
+                levers.into_iter().try_for_each(lever)
+            }
+            Event::Strategy { team, .. } if self.known.teams[team.index()].kind.is_none() => {
+                self.fault(&at.key("Strategy").key("team"), format!("{team} does not play"))
+            }
+            Event::Strategy { name, .. } if self.known.strategies.contains(name) => Ok(()),
+            Event::Strategy { name, .. } => {
+                let known = &self.known.strategies;
+                self.fault(&at.key("Strategy").key("name"), no_such("strategy", name, known))
+            }
         }
     }
 
