@@ -4,6 +4,7 @@ use bevy::prelude::*;
 use bevy_rapier2d::prelude::RapierRigidBodyHandle;
 
 use crate::clock::Clock;
+use crate::comms::tcm::MessageBudgets;
 use crate::geometry::Pose;
 use crate::ids::{RobotId, Team};
 use crate::pitch::Pitch;
@@ -114,6 +115,7 @@ fn place_robots(
 /// Tells each robot what the referee wants of it. Places for a kick-off are given out when robots get ready for it.
 fn tell_robots(
     (book, state, strategies, calls): (Res<RuleBook>, Res<MatchState>, Res<Strategies>, Res<Calls>),
+    budgets: Option<Res<MessageBudgets>>,
     mut robots: Query<(&RobotId, &Role, &mut Orders)>,
 ) {
     let begins = calls.0.contains(&Decision::PhaseChanged(Phase::Ready));
@@ -132,7 +134,8 @@ fn tell_robots(
             }
             None => orders.place,
         };
-        let next = orders_of(*id, &state, &book, place);
+        let messages_left = budgets.as_ref().map(|budgets| budgets.share_left(id.team));
+        let next = Orders { messages_left, ..orders_of(*id, &state, &book, place) };
         if *orders != next {
             *orders = next;
         }

@@ -11,6 +11,7 @@ pub mod export;
 pub mod eyes;
 mod html;
 pub mod jam;
+pub mod kinds;
 pub mod league;
 pub mod replay;
 pub mod report;

@@ -34,6 +34,8 @@ pub struct Orders {
     pub state: RobotState,
     /// Where it should stand at the kick-off, in its team frame; nothing if people put it there.
     pub place: Option<Pose>,
+    /// Which share of the messages that the league allows its team is left; nothing, if nobody counts them.
+    pub messages_left: Option<f32>,
 }
 
 impl Orders {
@@ -45,7 +47,7 @@ impl Orders {
     /// A robot that has been told where it is plays at once.
     pub(super) fn at_start(start: &RobotStart, _: &World) -> Orders {
         let state = if start.told.is_some() { RobotState::Playing } else { RobotState::Initial };
-        Orders { state, place: None }
+        Orders { state, ..Orders::default() }
     }
 
     /// Whether the robot may move by itself.

@@ -32,6 +32,7 @@ impl fmt::Display for Feature {
             Feature::GoalieIsOut => f.write_str("the goalie is out"),
             Feature::After(seconds) => write!(f, "after {seconds} s"),
             Feature::Bumped => f.write_str("has bumped into something"),
+            Feature::MessagesLeftBelow(share) => write!(f, "less than {share} of the messages is left"),
             Feature::Stalled(seconds) => write!(f, "stalled for {seconds} s"),
             Feature::HoldFor { what, .. } => write!(f, "lately {what}"),
             Feature::Lasting { what, seconds, .. } => write!(f, "{what} for {seconds} s"),

@@ -198,6 +198,8 @@ pub enum Feature {
     GoalieIsOut,
     /// The robot's drive reports that it is blocked; never without bump sensing.
     Bumped,
+    /// Less than this share of the messages that the league allows the team is left; never where nobody counts them.
+    MessagesLeftBelow(f32),
     /// The robot has been told to move for this many seconds and finds by its wheels and its landmarks that it has not moved.
     Stalled(f32),
     /// The robot has been in its present state for this many seconds.

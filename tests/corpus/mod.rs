@@ -2,8 +2,16 @@
 
 use std::path::Path;
 
+#[path = "../../fuzz/checks/files.rs"]
+mod files;
 #[path = "../../fuzz/checks/gamecontroller.rs"]
 mod gamecontroller;
+#[path = "../../fuzz/checks/pictures.rs"]
+mod pictures;
+#[path = "../../fuzz/checks/requests.rs"]
+mod requests;
+#[path = "../../fuzz/checks/shipped.rs"]
+mod shipped;
 #[path = "../../fuzz/checks/tcm.rs"]
 mod tcm;
 
@@ -52,4 +60,24 @@ fn status_packets_are_read_as_they_are_written() {
 #[test]
 fn a_referee_box_is_followed_or_ignored() {
     replay("gamecontroller_box", gamecontroller::referee_box);
+}
+
+#[test]
+fn assets_are_read_or_told_what_is_wrong_with_them() {
+    replay("asset", files::asset);
+}
+
+#[test]
+fn recordings_are_read_or_told_what_is_wrong_with_them() {
+    replay("replay", files::replay);
+}
+
+#[test]
+fn a_match_stays_in_the_world_whatever_is_asked_of_it() {
+    replay("requests", requests::requests);
+}
+
+#[test]
+fn what_is_recognised_in_a_picture_is_at_a_place() {
+    replay("picture", pictures::picture);
 }

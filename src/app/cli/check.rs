@@ -9,11 +9,11 @@ use clap::Args;
 
 use super::ending::{CommandError, Ending};
 use super::interrupt::Interrupt;
-use super::kinds;
 use super::recording::RunRecorder;
 use crate::app::whole_file::{check_writable, write_whole};
-use crate::data::{AssetFolder, AssetKind, DataError, Field};
+use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 use crate::lab::coverage::{Coverage, CoverageWatcher};
+use crate::lab::kinds;
 use crate::lab::scenario::{ScenarioOutcome, ScenarioPlan, ScenarioRef, ScenarioReport, junit, rows};
 
 #[derive(Args, Debug, Default)]
@@ -75,7 +75,7 @@ impl CheckCommand {
         }
         for file in &self.files {
             let file = ScenarioRef::at(file);
-            match kinds::kind_of(&file.path) {
+            match Source::read(&file.path).and_then(|source| kinds::kind_of(&source)) {
                 Ok(kind) => self.check(assets, kind, &file, &mut findings)?,
                 Err(error) => findings.tell(&file, Err(error))?,
             }

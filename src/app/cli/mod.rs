@@ -12,7 +12,6 @@ mod fit_eyes;
 mod heavy;
 mod interrupt;
 mod jam;
-mod kinds;
 mod league;
 mod merge;
 mod options;

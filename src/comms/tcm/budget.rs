@@ -53,6 +53,11 @@ impl MessageBudgets {
         self.size.saturating_sub(self.teams[team.index()].counted)
     }
 
+    /// Which share of all its messages a team may still send.
+    pub fn share_left(&self, team: Team) -> f32 {
+        self.left(team) as f32 / self.size.max(1) as f32
+    }
+
     /// What a team has spent so far.
     pub fn spent(&self, team: Team) -> Spent {
         self.teams[team.index()]

@@ -43,8 +43,8 @@ pub struct UdpCarrier {
     conns: BTreeMap<RobotId, UdpConn>,
     /// Of the match; datagrams of the robots of any other are foreign.
     pub(super) session: u32,
-    /// Datagrams that have come and wait for the tick in which they are heard.
-    early: Vec<NetworkDatagram>,
+    /// Datagrams that have come and wait for the tick in which they are heard, by their sender.
+    early: BTreeMap<Peer, EarlyDatagrams>,
     /// Datagrams under way between two robots of this process, the oldest first.
     under_way: VecDeque<UnderWay>,
     /// What it has carried so far.
@@ -64,6 +64,37 @@ pub struct CarrierFigures {
     pub foreign: u64,
     /// That the operating system did not take.
     pub refused: u64,
+    /// From who had sent more than is kept of it.
+    pub too_many: u64,
+}
+
+/// What one sender has sent for later ticks.
+#[derive(Default)]
+struct EarlyDatagrams {
+    datagrams: Vec<NetworkDatagram>,
+    bytes: usize,
+}
+
+impl EarlyDatagrams {
+    /// Keeps one more; false if that is too much. So who floods robots, or says that it speaks from the future, takes no room from
+    /// others.
+    fn keep(&mut self, datagram: NetworkDatagram) -> bool {
+        let bytes = self.bytes + datagram.bytes.len();
+        let fits = bytes <= MOST_BYTES && self.datagrams.len() < MOST_DATAGRAMS;
+        if fits {
+            self.bytes = bytes;
+            self.datagrams.push(datagram);
+        }
+        fits
+    }
+
+    /// Takes out those that were sent before a tick.
+    fn due(&mut self, tick: u64) -> Vec<NetworkDatagram> {
+        let is_due = |datagram: &mut NetworkDatagram| datagram.sent.is_none_or(|sent| sent < tick);
+        let due: Vec<NetworkDatagram> = self.datagrams.extract_if(.., is_due).collect();
+        self.bytes -= due.iter().map(|datagram| datagram.bytes.len()).sum::<usize>();
+        due
+    }
 }
 
 struct UnderWay {
@@ -73,8 +104,10 @@ struct UnderWay {
     sent: u64,
 }
 
-/// The datagrams that are kept for later ticks.
-const MOST_EARLY: usize = 4096;
+/// The datagrams of one sender that are kept for later ticks.
+const MOST_DATAGRAMS: usize = 512;
+/// And their bytes.
+const MOST_BYTES: usize = 1 << 20;
 /// A datagram that has not arrived after this time is lost, s.
 const LOST: f32 = 1.0;
 
@@ -152,8 +185,10 @@ impl UdpCarrier {
             Some(_) => self.figures.from_computers += 1,
             None => self.figures.foreign += 1,
         }
-        if sender.is_some_and(|sender| sender != HOST) && self.early.len() < MOST_EARLY {
-            self.early.push(NetworkDatagram { to, sent, bytes: bytes.into() });
+        if let Some(sender) = sender.filter(|sender| *sender != HOST) {
+            let datagram = NetworkDatagram { to, sent, bytes: bytes.into() };
+            let is_kept = self.early.entry(sender).or_default().keep(datagram);
+            self.figures.too_many += u64::from(!is_kept);
         }
         sender
     }
@@ -197,10 +232,10 @@ pub(super) fn ask_for_due(
     mut carrier: ResMut<UdpCarrier>,
     mut requests: ResMut<Requests>,
 ) {
-    let is_due = |datagram: &mut NetworkDatagram| datagram.sent.is_none_or(|sent| sent < clock.tick);
-    for datagram in carrier.early.extract_if(.., is_due) {
-        requests.ask(Request::Datagram(datagram));
+    for early in carrier.early.values_mut() {
+        early.due(clock.tick).into_iter().for_each(|datagram| requests.ask(Request::Datagram(datagram)));
     }
+    carrier.early.retain(|_, early| !early.datagrams.is_empty());
 }
 
 fn address_of(robot: RobotId, directory: &Directory) -> Result<SocketAddr, NetworkError> {
@@ -290,5 +325,29 @@ pub(super) fn transmit(
         carrier.figures.sent += u64::from(!is_refused);
         let id = record.sent(&packet, &Delivery::on_time(clock.tick + 1), clock.tick);
         carrier.under_way.push_back(UnderWay { id, packet, sent: clock.tick });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ids::Team;
+
+    fn from_tick(sent: u64, bytes: usize) -> NetworkDatagram {
+        let to = RobotId::new(Team::Home, 0);
+        NetworkDatagram { to, sent: Some(sent), bytes: vec![0; bytes].into() }
+    }
+
+    #[test]
+    fn what_says_that_it_comes_from_the_future_is_kept_up_to_a_bound_and_the_rest_is_heard() {
+        let mut early = EarlyDatagrams::default();
+        let kept = (0..10_000).filter(|_| early.keep(from_tick(u64::MAX, 1000))).count();
+        assert_eq!(kept, MOST_DATAGRAMS);
+        assert!(early.due(5).is_empty() && !early.keep(from_tick(4, 1000)));
+        let mut long = EarlyDatagrams::default();
+        let kept = (0..100).filter(|_| long.keep(from_tick(7, 60_000))).count();
+        assert_eq!(kept, MOST_BYTES / 60_000);
+        assert_eq!((long.due(7).len(), long.due(8).len(), long.bytes), (0, kept, 0));
+        assert!(long.keep(from_tick(9, 60_000)));
     }
 }

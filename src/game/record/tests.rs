@@ -56,7 +56,7 @@ fn robot(app: &mut App, team: Team, number: u8, x: f32) -> Entity {
         Robot::new(kind, sensing, &clock),
         DriveCommand::Wheels(WheelSpeeds::default()),
         Handling::new(Seed(1), id),
-        Orders { state: RobotState::Playing, place: None },
+        Orders { state: RobotState::Playing, ..Orders::default() },
     );
     app.world_mut().spawn((id, Pose::new(x, 0.0, 0.0), Twist::default(), Role(0), activity, body)).id()
 }

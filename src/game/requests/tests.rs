@@ -56,6 +56,7 @@ fn app() -> App {
     app.insert_resource(Strategies([strategy.clone(), strategy]));
     app.insert_resource(Channel::new(Seed(1), perfect_radio()));
     app.insert_resource(Interference::default()).insert_resource(FaultRules::default());
+    app.insert_resource(crate::testing::pitch());
     app.insert_resource(HallLight::new(Light::default(), Seed(1)));
     app
 }

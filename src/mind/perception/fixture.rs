@@ -22,6 +22,7 @@ pub struct Situation {
     pub ball_age: Option<f32>,
     pub time_in_state: f32,
     pub bumped: bool,
+    pub messages_left: Option<f32>,
     pub stalled_for: f32,
 }
 
@@ -43,6 +44,7 @@ impl Situation {
             ball_age: None,
             time_in_state: 0.0,
             bumped: false,
+            messages_left: None,
             stalled_for: 0.0,
         }
     }
@@ -90,6 +92,7 @@ impl Situation {
             time_in_state: self.time_in_state,
             holds_ball: false,
             bumped: self.bumped,
+            messages_left: self.messages_left,
             stalled_for: self.stalled_for,
             front: Situation::FRONT,
             ball_radius: Situation::BALL_RADIUS,

@@ -64,6 +64,7 @@ pub fn perception<'a>(
         time_in_state: clock.seconds_since(activity.since),
         holds_ball: input.handling.holds(),
         bumped: input.odometry.bump.reports,
+        messages_left: input.orders.messages_left,
         stalled_for: input.model.stalled_for(clock),
         front: input.robot.kind.body.length / 2.0,
         ball_radius: ball.radius,

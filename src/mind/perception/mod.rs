@@ -62,6 +62,8 @@ pub struct Perception<'a> {
     pub holds_ball: bool,
     /// Whether the drive reports that it is blocked.
     pub bumped: bool,
+    /// Which share of the team's messages is left, where somebody counts them.
+    pub messages_left: Option<f32>,
     /// Seconds for which it has been told to move and has found itself not to.
     pub stalled_for: f32,
     /// From the robot's centre to its front and the radius of the ball, m.
@@ -248,6 +250,7 @@ impl Perception<'_> {
                 self.teamwork.has(Mechanism::GoalieSupport) && self.team_model.goalie.is_out
             }
             Feature::Bumped => self.bumped,
+            Feature::MessagesLeftBelow(share) => self.messages_left.is_some_and(|left| left < *share),
             Feature::Stalled(seconds) => self.stalled_for >= *seconds,
             Feature::After(seconds) => self.time_in_state >= *seconds,
             Feature::HoldFor { what, seconds, slot } => {

@@ -179,6 +179,7 @@ impl Resolver<'_> {
             Feature::BallSeenWithin(seconds) | Feature::Stalled(seconds) | Feature::After(seconds) => {
                 self.within(*seconds, Bound::SECONDS, at)?;
             }
+            Feature::MessagesLeftBelow(share) => self.within(*share, Bound::SHARE, at)?,
             Feature::Near { a, b, radius } => {
                 self.point(a, &at.key("a"))?;
                 self.point(b, &at.key("b"))?;

@@ -19,7 +19,7 @@ pub fn orders_of(robot: RobotId, state: &MatchState, book: &RuleBook, place: Opt
         Phase::Playing => RobotState::Playing,
     };
     let walks = book.kick_off == KickOffStyle::Walked && !state.restraints.carried;
-    Orders { state: told, place: place.filter(|_| walks) }
+    Orders { state: told, place: place.filter(|_| walks), ..Orders::default() }
 }
 
 #[cfg(test)]

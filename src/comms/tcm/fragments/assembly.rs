@@ -1,5 +1,6 @@
 //! The receiver's table of messages that have not arrived in full.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
@@ -11,8 +12,8 @@ use crate::comms::tcm::external_message::{Address, DataType, ExternalMessage, Mo
 /// Puts messages together from fragments that come in any order, more than once or never, from many sources.
 ///
 /// It allocates for what has arrived, never for what is announced. The newest wins: where room is missing the oldest
-/// unfinished message goes, and where a fragment contradicts an unfinished message of the same source and counter, that
-/// message goes. Once a message is over, completed or not, its further fragments are ignored while it is remembered.
+/// unfinished message goes of the sender that takes most of it, and where a fragment contradicts an unfinished message of the same
+/// source and counter, that message goes. Once a message is over, completed or not, its further fragments are ignored while it is remembered.
 #[derive(Clone, Debug)]
 pub struct Assembly {
     limits: Limits,
@@ -265,15 +266,14 @@ impl Assembly {
         Some(shape.message(header.source, data))
     }
 
-    /// Gives up the oldest messages until a piece of the message `key` fits; false if that message had to go itself.
+    /// Gives up messages until a piece of the message `key` fits, each time the oldest of the sender that takes most room, so that who
+    /// sends too much loses its own; false if that message had to go itself.
     fn make_room(&mut self, now: u64, key: Key, piece: usize) -> bool {
         let is_new = !self.open.contains_key(&key);
         let entries = if is_new { self.limits.messages.saturating_sub(1) } else { self.limits.messages };
         let cost = piece + PIECE_COST + if is_new { ENTRY_COST } else { 0 };
         while self.open.len() > entries || self.memory + cost > self.limits.bytes {
-            let Some((&oldest, _)) = self.open.iter().min_by_key(|(_, open)| open.age) else {
-                return true;
-            };
+            let Some(oldest) = self.oldest_of_greediest() else { return true };
             self.close(now, oldest);
             self.counters.evicted += 1;
             if oldest == key {
@@ -281,6 +281,20 @@ impl Assembly {
             }
         }
         true
+    }
+
+    /// The oldest message of the sender whose messages take most room; of several such senders, the oldest of all.
+    fn oldest_of_greediest(&self) -> Option<Key> {
+        let mut senders: BTreeMap<Peer, (usize, u64, Key)> = BTreeMap::new();
+        for (&key, open) in &self.open {
+            let (cost, age, oldest) = senders.entry(key.0).or_insert((0, open.age, key));
+            *cost += open.cost();
+            if open.age < *age {
+                (*age, *oldest) = (open.age, key);
+            }
+        }
+        let greediest = senders.into_values().max_by_key(|(cost, age, _)| (*cost, Reverse(*age)));
+        greediest.map(|(_, _, oldest)| oldest)
     }
 
     /// Moves a message to those that are over.

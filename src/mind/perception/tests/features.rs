@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::protocol::arbitration::PlayerAction;
-use crate::strategy::language::Feature::MayExecute;
+use crate::strategy::language::Feature::{MayExecute, MessagesLeftBelow};
 
 const BLIND: fn() -> Situation = || Situation::at(0.0, 0.0, 0.0);
 
@@ -166,6 +166,13 @@ fn times_count_from_the_moment_that_they_are_reached() {
 fn a_robot_has_bumped_into_something_while_its_drive_says_so() {
     assert!(!holds(&BLIND(), Bumped));
     assert!(holds(&Situation { bumped: true, ..BLIND() }, Bumped));
+}
+
+#[test]
+fn messages_run_short_only_where_somebody_counts_them() {
+    let left = |messages_left| Situation { messages_left, ..BLIND() };
+    let runs_short = |share| holds(&left(share), MessagesLeftBelow(0.2));
+    assert_eq!([None, Some(0.2), Some(0.19)].map(runs_short), [false, false, true]);
 }
 
 /// What a statement about `Known(Ball)` says in the course of time: seconds and whether the ball is known.

@@ -104,6 +104,18 @@ fn where_a_place_is_missing_the_oldest_goes() {
 }
 
 #[test]
+fn who_begins_too_many_messages_loses_its_own() {
+    let mut assembly = Assembly::new(LIMITS);
+    let honest = pieces(0, 1, b"01234567");
+    accept(&mut assembly, 0, [&honest[0]]);
+    for counter in 0..50 {
+        accept(&mut assembly, 1, [&pieces(1, counter, b"01234567")[0]]);
+    }
+    assert_eq!(assembly.counters().evicted, 48);
+    assert_eq!(accept(&mut assembly, 2, [&honest[1]]), [message(0, b"01234567")]);
+}
+
+#[test]
 fn where_memory_is_missing_the_oldest_goes_even_if_the_fragment_is_its_own() {
     let data = [7; 1_000];
     let datagrams = |from| cut(&message(from, &data), 1, HEADER + 200).unwrap();

@@ -1,7 +1,5 @@
 //! What kind of asset a file is, and reading it as a match would.
 
-use std::path::Path;
-
 use crate::comms::radio::Radio;
 use crate::data::{AssetFolder, AssetKind, DataError, Source, TopLevel, field_names};
 use crate::game::{Choice, MatchFile, MatchPlan, checked, read_addresses, read_strategy_alone};
@@ -16,9 +14,8 @@ use crate::vision::CameraCalibration;
 /// The kind of a file: the one that has most of the fields in it. So a file with a fault is told from another, too.
 ///
 /// # Errors
-/// If the file cannot be read, or may be of several kinds or of none.
-pub(super) fn kind_of(path: &Path) -> Result<AssetKind, DataError> {
-    let source = Source::read(path)?;
+/// If the text cannot be told into fields, or may be of several kinds or of none.
+pub fn kind_of(source: &Source) -> Result<AssetKind, DataError> {
     let written = match source.top_level()? {
         TopLevel::Struct(fields) => fields,
         TopLevel::Map(_) => return Ok(AssetKind::Addresses),
@@ -34,7 +31,7 @@ pub(super) fn kind_of(path: &Path) -> Result<AssetKind, DataError> {
         (Some((_, kind)), None) => Ok(*kind),
         _ => {
             let kinds = AssetKind::ALL.map(|kind| kind.to_string()).join(", ");
-            Err(DataError::new(path, format!("its fields do not say what it is; there are: {kinds}")))
+            Err(DataError::new(&source.path, format!("its fields do not say what it is; there are: {kinds}")))
         }
     }
 }
@@ -60,7 +57,7 @@ fn fields_of(kind: AssetKind) -> &'static [&'static str] {
 ///
 /// # Errors
 /// The first fault, with its place.
-pub(super) fn read(
+pub fn read(
     assets: &AssetFolder,
     kind: AssetKind,
     file: &ScenarioRef,
@@ -86,12 +83,16 @@ pub(super) fn read(
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
 
     use proptest::prelude::*;
     use proptest::strategy::Strategy;
 
-    use super::{AssetFolder, AssetKind, kind_of, read};
+    use super::{AssetFolder, AssetKind, DataError, Source, read};
+
+    fn kind_of(path: &Path) -> Result<AssetKind, DataError> {
+        super::kind_of(&Source::read(path)?)
+    }
 
     fn shipped() -> AssetFolder {
         AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"))
