@@ -28,6 +28,7 @@ mod radio;
 mod repeatability;
 mod role_swap;
 mod rolling_bodies;
+mod scenario_events;
 mod scenarios;
 mod schedule;
 mod single_writer;
