@@ -15,7 +15,6 @@ use crate::game::requests::Request;
 
 /// Behind it, on the first line, comes the version of the program.
 const MAGIC: &str = "touchline replay ";
-const NO_REPLAY: &str = "is not a replay";
 /// No recording is longer, bytes: a match of 20 minutes takes one or two million.
 const LONGEST: u64 = 256 << 20;
 
@@ -53,12 +52,12 @@ impl Replay {
         if path.is_dir() {
             return Err(fault(path, "is a folder, not a file"));
         }
-        if !Replay::is_at(path) {
-            File::open(path).map_err(unread)?;
-            return Err(fault(path, NO_REPLAY));
-        }
         let (mut file, mut bytes) = (File::open(path).map_err(unread)?, Vec::new());
-        file.by_ref().take(LONGEST + 1).read_to_end(&mut bytes).map_err(unread)?;
+        file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut bytes).map_err(unread)?;
+        // What does not begin as a recording is not read on.
+        if bytes == MAGIC.as_bytes() {
+            file.take(LONGEST).read_to_end(&mut bytes).map_err(unread)?;
+        }
         if bytes.len() as u64 > LONGEST {
             return Err(fault(path, format!("is longer than {} MB", LONGEST >> 20)));
         }
@@ -136,7 +135,7 @@ impl Replay {
 
 /// What comes after the first line, if that is of this version.
 fn after_first_line(bytes: &[u8]) -> Result<&[u8], String> {
-    let no_replay = || NO_REPLAY.to_owned();
+    let no_replay = || "is not a replay".to_owned();
     let rest = bytes.strip_prefix(MAGIC.as_bytes()).ok_or_else(no_replay)?;
     let end = rest.iter().take(100).position(|byte| *byte == b'\n').ok_or_else(no_replay)?;
     let version = String::from_utf8_lossy(&rest[..end]);

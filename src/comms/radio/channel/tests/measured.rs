@@ -98,7 +98,7 @@ fn nora_loses_and_delays_as_it_was_measured() {
     assert_as_measured(&NORA);
 }
 
-/// The two lose nearly as much, and yet one is silent for longer than most timers of the protocols and the other never.
+/// What is sent in one stall is late together.
 #[test]
 fn delays_of_odin_are_correlated() {
     let radio = ron_options().from_str(ODIN.radio).expect("the preset is sound");
