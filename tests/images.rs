@@ -1,11 +1,12 @@
 //! Matches of robots that see nothing but pictures.
 
+use std::f32::consts::TAU;
 use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::data::{AssetKind, DataError};
 use touchline::game::requests::{Request, RequestLog, Requests, RobotChange};
-use touchline::game::{Choice, Match, MatchPlan};
+use touchline::game::{Choice, Match, MatchPlan, Placed, Situation};
 use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
 use touchline::mind::world_model::WorldModel;
@@ -99,9 +100,21 @@ fn robots_find_ball_and_place_in_pictures() {
     }
 }
 
+/// All robots look at a ball that they stand around.
+fn around_the_ball(plan: &MatchPlan) -> Situation {
+    let robots: Vec<RobotId> = plan.robots().collect();
+    let angle = TAU / robots.len() as f32;
+    let placed = robots.into_iter().enumerate().map(|(place, id)| {
+        let at = 0.8 * Vec2::from_angle(angle * place as f32);
+        (id, Placed { pose: Pose::new(at.x, at.y, (-at).to_angle()), on: true })
+    });
+    Situation { refereed: false, robots: placed.collect(), ball: Vec2::ZERO, velocity: Vec2::ZERO }
+}
+
 #[test]
 fn a_robot_without_colours_sees_nothing_and_one_that_gets_them_back_sees() {
-    let plan = plan("four_legged_images", 3);
+    let mut plan = plan("four_legged_images", 3);
+    plan.situation = Some(around_the_ball(&plan));
     let mut game = Match::new(&plan);
     let colours =
         plan.team(Team::Home).senses.calibration.as_ref().expect("it sees by pictures").colours.clone();
@@ -113,7 +126,7 @@ fn a_robot_without_colours_sees_nothing_and_one_that_gets_them_back_sees() {
     let mut without = colours.clone();
     without.0.remove(&ColourClass::Orange);
     all(&without).into_iter().for_each(|request| ask(&mut game, request));
-    assert_eq!(play(&mut game, 36 * 60).balls, 0);
+    assert_eq!(play(&mut game, 120).balls, 0);
     all(&colours).into_iter().for_each(|request| ask(&mut game, request));
     assert!(play(&mut game, 60).balls > 0);
 }
@@ -129,16 +142,16 @@ fn a_match_in_which_somebody_calibrates_is_played_again_from_its_requests() {
     game.world_mut().insert_resource(RequestLog::default());
     let dim = Lighting { brightness: 0.6, ..Lighting::default() };
     for (tick, request) in [
-        (20, Request::Robot(robot, RobotChange::SetCamera(settings))),
-        (60, Request::Robot(robot, RobotChange::SetColours(ColourTable::default()))),
-        (90, Request::Light(dim)),
+        (10, Request::Robot(robot, RobotChange::SetCamera(settings))),
+        (20, Request::Robot(robot, RobotChange::SetColours(ColourTable::default()))),
+        (30, Request::Light(dim)),
     ] {
         while game.clock().tick < tick {
             game.tick();
         }
         ask(&mut game, request);
     }
-    play(&mut game, 300);
+    play(&mut game, 90);
     let ticks = game.clock().tick;
     let requests = game.world().resource::<RequestLog>().0.clone();
     assert_eq!(requests.len(), 3);

@@ -69,26 +69,15 @@ fn look_at_robots(game: &mut Match, progress: &mut [Progress]) -> u32 {
 }
 
 #[test]
-fn short_matches_have_goals_and_nobody_leaves_or_hangs() {
-    let mut with_goals = 0;
-    for seed in 1..=4 {
-        let noticed = watch(&friendly(seed, 3.0));
-        with_goals += u32::from(noticed.goals > 0);
-        assert!(noticed.longest_stuck < 30.0, "seed {seed}: stuck for {:.0} s", noticed.longest_stuck);
-    }
-    assert!(with_goals >= 2, "goals in {with_goals} of 4 matches only");
-}
-
-#[test]
 fn whole_matches_have_goals_and_nobody_leaves_or_hangs() {
     let mut with_goals = 0;
-    for seed in 1..=12 {
+    for seed in 1..=6 {
         let noticed = watch(&friendly(seed, 5.0));
         println!("seed {seed}: {} goals, stuck for {:.1} s at most", noticed.goals, noticed.longest_stuck);
         with_goals += u32::from(noticed.goals > 0);
         assert!(noticed.longest_stuck < 30.0, "seed {seed}: stuck for {:.0} s", noticed.longest_stuck);
     }
-    assert!(with_goals > 8, "goals in {with_goals} of 12 matches only");
+    assert!(with_goals > 4, "goals in {with_goals} of 6 matches only");
 }
 
 #[test]

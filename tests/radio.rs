@@ -147,26 +147,26 @@ fn somebody_drove(record: &Record) -> f64 {
 fn every_team_of_hammerheads_plays_on_when_the_radio_is_dead() {
     for team in ["hammerheads_2000", "hammerheads_2001", "hammerheads_swap"] {
         let (mut with, mut without, mut had) = (0.0, 0.0, 0.0);
-        for seed in 10_001..=10_004 {
+        for seed in 10_001..=10_002 {
             let game = against_chasers(team, true, "dead", 3.0, seed);
             let traffic = game.world().resource::<RadioRecord>().total();
             assert_eq!(traffic.delivered, 0, "{team}: the radio is dead");
             assert!(traffic.sent > 500, "{team}: and everybody talks");
-            without += somebody_drove(game.record()) / 4.0;
-            had += game.record().possession_shares()[0] / 4.0;
-            with += somebody_drove(against_chasers(team, true, "good", 3.0, seed).record()) / 4.0;
+            without += somebody_drove(game.record()) / 2.0;
+            had += game.record().possession_shares()[0] / 2.0;
+            with += somebody_drove(against_chasers(team, true, "good", 3.0, seed).record()) / 2.0;
         }
         assert!(without > 0.6 * with, "{team}: somebody drove at the ball for {without:.2} and {with:.2}");
         assert!(had > 0.2, "{team} had the ball for {had:.2} of the time");
     }
 }
 
-/// Sections V and VI are there to keep team mates apart: 20 matches of six minutes, sides swapped. On other seeds the Hammerheads
+/// Sections V and VI are there to keep team mates apart: 12 matches of six minutes, sides swapped. On other seeds the Hammerheads
 /// touched each other for two fifths of the time for which the chasers did, and four fifths as long had several at the ball.
 #[test]
 fn the_hammerheads_touch_each_other_less_than_the_ball_chasers_do() {
     let (mut touched, mut several) = ([0.0; 2], [0.0; 2]);
-    for (seed, swapped) in (10_001..=10_010).flat_map(|seed| [(seed, false), (seed, true)]) {
+    for (seed, swapped) in (10_001..=10_006).flat_map(|seed| [(seed, false), (seed, true)]) {
         let game = against_chasers("hammerheads_2001", !swapped, "good", 3.0, seed);
         let sides = if swapped { [Team::Away, Team::Home] } else { Team::BOTH };
         for (i, side) in sides.into_iter().enumerate() {
