@@ -1,13 +1,13 @@
 //! Matches of robots that see nothing but pictures.
 
-use std::f32::consts::TAU;
+use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::data::{AssetKind, DataError};
 use touchline::game::requests::{Request, RequestLog, Requests, RobotChange};
 use touchline::game::{Choice, Match, MatchPlan, Placed, Situation};
-use touchline::geometry::Pose;
+use touchline::geometry::{Pose, unit};
 use touchline::ids::{RobotId, Team};
 use touchline::mind::world_model::WorldModel;
 use touchline::robot::CalibratedCamera;
@@ -103,10 +103,11 @@ fn robots_find_ball_and_place_in_pictures() {
 /// All robots look at a ball that they stand around.
 fn around_the_ball(plan: &MatchPlan) -> Situation {
     let robots: Vec<RobotId> = plan.robots().collect();
-    let angle = TAU / robots.len() as f32;
+    let apart = TAU / robots.len() as f32;
     let placed = robots.into_iter().enumerate().map(|(place, id)| {
-        let at = 0.8 * Vec2::from_angle(angle * place as f32);
-        (id, Placed { pose: Pose::new(at.x, at.y, (-at).to_angle()), on: true })
+        let from_ball = apart * place as f32;
+        let at = 0.8 * unit(from_ball);
+        (id, Placed { pose: Pose::new(at.x, at.y, from_ball + PI), on: true })
     });
     Situation { refereed: false, robots: placed.collect(), ball: Vec2::ZERO, velocity: Vec2::ZERO }
 }
