@@ -1,12 +1,16 @@
 //! What must hold of every match is looked at in every match, and what breaks it is found.
 
+use bevy::prelude::*;
+use bevy_rapier2d::prelude::*;
 use touchline::data::AssetFolder;
 use touchline::game::record::{Invariant, Invariants};
-use touchline::game::{Choice, Match, MatchPlan};
-use touchline::ids::Team;
+use touchline::game::{Choice, Match, MatchPlan, Placed, Situation};
+use touchline::geometry::Pose;
+use touchline::ids::{RobotId, Team};
 use touchline::lab::scenario::{RunWatcher, ScenarioPlan, ScenarioRef};
+use touchline::robot::RobotBodies;
 
-use crate::support::assets;
+use crate::support::{assets, friendly};
 
 /// What the runs of a scenario have broken.
 #[derive(Default)]
@@ -15,7 +19,7 @@ struct Broken {
 }
 
 impl RunWatcher for Broken {
-    fn begin(&mut self, _: (bevy::prelude::Vec2, u64), game: &mut Match) {
+    fn begin(&mut self, _: (Vec2, u64), game: &mut Match) {
         self.runs.push(game.world().resource::<Invariants>().clone());
     }
 
@@ -88,5 +92,50 @@ fn whatever_radio_and_strategy_what_is_safe_stays_safe() {
         };
         let invariants = played(&assets(), choice);
         assert!(!invariants.is_unsafe(), "{home} against {away}: {:?}", invariants.breaches);
+        let inside = invariants.broken.keys().any(|(invariant, _)| *invariant == Invariant::RobotsAreSolid);
+        assert!(!inside, "{home} against {away}: {:?}", invariants.breaches);
     }
+}
+
+/// Ticks for which a robot is held in another one, so far from it, m; what is broken then.
+fn held(apart: f32, ticks: u32) -> Invariants {
+    let mut plan = friendly(1, 1.0);
+    let robots = [RobotId::new(Team::Home, 1), RobotId::new(Team::Away, 2)];
+    let placed = robots.map(|id| {
+        let x = if id.team == Team::Home { -1.0 } else { 1.0 };
+        (id, Placed { pose: Pose::new(x, 1.0, 0.0), on: true })
+    });
+    plan.situation = Some(Situation {
+        refereed: false,
+        robots: placed.into_iter().collect(),
+        ball: Vec2::new(0.0, -1.0),
+        velocity: Vec2::ZERO,
+    });
+    let mut game = Match::new(&plan);
+    for _ in 0..ticks {
+        let world = game.world_mut();
+        let mut bodies = world.query::<(&RobotId, &RobotBodies)>();
+        let [one, other] = robots.map(|robot| {
+            let found = bodies.iter(world).find(|(id, _)| **id == robot);
+            found.map(|(_, bodies)| bodies.unit.0).expect("it has a body")
+        });
+        let mut sets = world.query::<&mut RapierRigidBodySet>();
+        let mut set = sets.single_mut(world).expect("one physical world");
+        let there = set.bodies[other].translation() + Vec2::new(0.0, apart);
+        set.bodies[one].set_translation(there, true);
+        game.tick();
+    }
+    game.world().resource::<Invariants>().clone()
+}
+
+#[test]
+fn a_robot_that_is_held_in_another_one_is_told_and_one_that_stands_beside_it_is_not() {
+    let told = |invariants: Invariants| {
+        let found = invariants.breaches.into_iter().filter(|it| it.invariant == Invariant::RobotsAreSolid);
+        found.map(|breach| breach.robots).collect::<Vec<_>>()
+    };
+    let [one, other] = [RobotId::new(Team::Home, 1), RobotId::new(Team::Away, 2)];
+    assert_eq!(told(held(0.1, 60)), [vec![one], vec![other]]);
+    assert!(told(held(0.1, 20)).is_empty(), "as short as a push");
+    assert!(told(held(1.0, 60)).is_empty());
 }

@@ -4,6 +4,7 @@
 //! Rapier's own body set, so a tick costs little more than Rapier itself.
 
 mod footprint;
+mod overlaps;
 mod pose;
 mod put;
 mod room;
@@ -15,14 +16,13 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
 use bevy_rapier2d::rapier::dynamics::{IntegrationParameters, RigidBody as Body, RigidBodySet};
-use bevy_rapier2d::rapier::geometry::ContactPair;
 
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
 use crate::pitch::Pitch;
 use crate::schedule::{Tick, TickSystems};
-use footprint::place_of;
 pub use footprint::{Footprint, nearest_free, trailer_shape, unit_shapes};
+pub use overlaps::Overlaps;
 use pose::{pose_of, turn};
 pub use put::{Put, push};
 pub use walls::wall_boxes;
@@ -139,39 +139,6 @@ pub fn turn_to_poses(mut bodies: Bodies, poses: Query<(&RapierRigidBodyHandle, &
         if let Some(body) = bodies.get_mut(handle) {
             turn(body, pose.heading);
         }
-    }
-}
-
-/// What a ball overlaps, for those who judge the physics.
-#[derive(SystemParam)]
-pub struct Overlaps<'w, 's> {
-    context: Option<
-        Single<
-            'w,
-            's,
-            (&'static RapierContextSimulation, &'static RapierContextColliders, &'static RapierRigidBodySet),
-        >,
-    >,
-}
-
-impl Overlaps<'_, '_> {
-    /// How deep a ball has sunk into each shape that it touches, m; shapes of robots and walls alike.
-    pub fn of_ball(&self, ball: &RapierRigidBodyHandle, radius: f32) -> impl Iterator<Item = f32> {
-        let context = self.context.as_ref().map(|context| **context);
-        let found = context.and_then(|(simulation, colliders, bodies)| {
-            let ball = bodies.bodies.get(ball.0)?;
-            let own = *ball.colliders().first()?;
-            let depth = move |pair: &ContactPair| {
-                let other = if pair.collider1 == own { pair.collider2 } else { pair.collider1 };
-                let collider = colliders.colliders.get(other)?;
-                let place = place_of(collider, &bodies.bodies);
-                let nearest = collider.shape().project_point(&place, ball.translation(), false);
-                let gap = nearest.point.distance(ball.translation());
-                Some(radius - if nearest.is_inside { -gap } else { gap })
-            };
-            Some(simulation.narrow_phase.contact_pairs_with(own).filter_map(depth))
-        });
-        found.into_iter().flatten().filter(|depth| *depth > 0.0)
     }
 }
 

@@ -15,6 +15,8 @@ pub enum Invariant {
     InTheWorld,
     /// The ball is not inside a robot or a wall.
     BallIsSolid,
+    /// A robot is not inside another one or a wall.
+    RobotsAreSolid,
     /// A robot that is off receives nothing.
     OffIsDeaf,
     /// A lock is given back when its timer has run out (Hammerheads, section VII-A).
@@ -44,13 +46,16 @@ const PATIENCE: f32 = 10.0;
 const LATENESS: f32 = 1.0;
 /// Springs of the physics may be pressed in for so long, s.
 const SQUEEZE: f32 = 0.5;
+/// Robots that press each other reach no deeper than this into each other or into walls, m.
+pub(super) const ROBOT_TOLERANCE: f32 = 0.01;
 
 impl Invariant {
     /// All of them.
-    pub const ALL: [Invariant; 12] = [
+    pub const ALL: [Invariant; 13] = [
         Invariant::Finite,
         Invariant::InTheWorld,
         Invariant::BallIsSolid,
+        Invariant::RobotsAreSolid,
         Invariant::OffIsDeaf,
         Invariant::LockIsGivenBack,
         Invariant::RolesAreKept,
@@ -79,7 +84,7 @@ impl Invariant {
     pub(super) fn same_robots(self) -> usize {
         match self {
             Invariant::OneRobotARole | Invariant::OneAtBookedBall | Invariant::OneDefender => 2,
-            Invariant::LockIsGivenBack | Invariant::BookerPlays => 1,
+            Invariant::LockIsGivenBack | Invariant::BookerPlays | Invariant::RobotsAreSolid => 1,
             _ => 0,
         }
     }
@@ -91,7 +96,7 @@ impl Invariant {
         let booking = teamwork.ball_booking.as_ref().map_or(0.0, |spec| spec.timeout + spec.renewal);
         match self {
             Invariant::Finite | Invariant::InTheWorld | Invariant::OffIsDeaf | Invariant::RolesAreKept => 0.0,
-            Invariant::BallIsSolid => SQUEEZE,
+            Invariant::BallIsSolid | Invariant::RobotsAreSolid => SQUEEZE,
             Invariant::LockIsGivenBack => LATENESS,
             Invariant::OneRobotARole | Invariant::NoRoleVacant => swap + LATENESS,
             Invariant::BookerPlays | Invariant::OneAtBookedBall => booking + LATENESS,
@@ -107,6 +112,7 @@ impl Display for Invariant {
             Invariant::Finite => "something is not a number",
             Invariant::InTheWorld => "something is outside the world",
             Invariant::BallIsSolid => "the ball is inside something",
+            Invariant::RobotsAreSolid => "a robot is inside something",
             Invariant::OffIsDeaf => "a robot that is off received a message",
             Invariant::LockIsGivenBack => "a lock is held beyond its timer",
             Invariant::RolesAreKept => "a robot knows of other roles than those of the kick-off",

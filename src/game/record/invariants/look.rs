@@ -3,10 +3,11 @@
 use bevy::ecs::query::QueryData;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
+use bevy_rapier2d::rapier::dynamics::RigidBodyHandle;
 use smallvec::SmallVec;
 
 use super::breach::{Failing, Robots};
-use super::invariant::Invariant;
+use super::invariant::{Invariant, ROBOT_TOLERANCE};
 use crate::clock::Clock;
 use crate::comms::radio::RadioRecord;
 use crate::game::record::figures::Record;
@@ -17,10 +18,11 @@ use crate::ids::{RobotId, Team};
 use crate::mind::teamwork::{Booking, BookingStatus, Swapping, TeamModel, kick_off_roles};
 use crate::mind::world_model::WorldModel;
 use crate::pitch::Pitch;
-use crate::robot::{OffPitch, Orders, Robot};
+use crate::robot::{OffPitch, Orders, Robot, RobotBodies};
 use crate::strategy::teamwork::Mechanism;
 use crate::strategy::{Role, Strategies, Strategy};
 use crate::world::ball::Ball;
+use crate::world::physics::Overlaps;
 use crate::world::referee::{DefenderRule, MatchState, Phase, RuleBook};
 
 /// All that is looked at, but for what is looked at from tick to tick.
@@ -31,6 +33,7 @@ pub(in crate::game::record) struct LookView<'w, 's> {
     book: Res<'w, RuleBook>,
     ball: Single<'w, 's, (&'static Pose, &'static Twist), With<Ball>>,
     robots: Query<'w, 's, LookedAt>,
+    overlaps: Overlaps<'w, 's>,
 }
 
 #[derive(QueryData)]
@@ -45,6 +48,7 @@ pub(in crate::game::record) struct LookedAt {
     team_model: &'static TeamModel,
     swapping: Option<&'static Swapping>,
     booking: Option<&'static Booking>,
+    bodies: Option<&'static RobotBodies>,
     off_pitch: Has<OffPitch>,
 }
 
@@ -67,7 +71,8 @@ impl LookView<'_, '_> {
         robots.sort_unstable_by_key(|it| *it.id);
         let (ball, motion) = *self.ball;
         let look = InvariantLook { pitch: &self.pitch, state: &self.state, book: &self.book, robots };
-        look.failing((ball, motion), clock, strategies, seen, off)
+        let inside = look.inside(self.overlaps.deeper_than(ROBOT_TOLERANCE));
+        look.failing(&inside, (ball, motion), clock, strategies, seen, off)
     }
 }
 
@@ -83,6 +88,7 @@ struct InvariantLook<'a, 'w, 's> {
 impl InvariantLook<'_, '_, '_> {
     fn failing(
         &self,
+        inside: &[RobotId],
         (ball, motion): (&Pose, &Twist),
         clock: &Clock,
         strategies: &Strategies,
@@ -108,6 +114,7 @@ impl InvariantLook<'_, '_, '_> {
             note((Invariant::Finite, self.of(team, |it| !is_finite(it.pose, it.twist))));
             let is_out = |it: &LookedAtItem| !it.off_pitch && !self.holds(it.pose.position);
             note((Invariant::InTheWorld, self.of(team, is_out)));
+            note((Invariant::RobotsAreSolid, self.of(team, |it| inside.contains(it.id))));
             note((Invariant::OffIsDeaf, self.reached(team, radio, off)));
             self.look_at_swaps(team, strategy, clock, &mut note);
             if self.state.phase == Phase::Playing {
@@ -125,6 +132,24 @@ impl InvariantLook<'_, '_, '_> {
 
     fn holds(&self, point: Vec2) -> bool {
         self.pitch.holds(point, self.pitch.margin())
+    }
+
+    /// The robots on the pitch that are in other ones or in walls.
+    fn inside(&self, pairs: impl Iterator<Item = [Option<RigidBodyHandle>; 2]>) -> Robots {
+        let owner = |body: RigidBodyHandle| {
+            let owns =
+                |it: &&LookedAtItem| it.bodies.is_some_and(|own| own.all().iter().any(|own| own.0 == body));
+            self.robots.iter().find(owns).filter(|it| !it.off_pitch).map(|it| *it.id)
+        };
+        let mut inside = Robots::new();
+        for bodies in pairs {
+            match bodies.map(|body| body.map(owner)) {
+                [Some(Some(one)), Some(Some(other))] if one != other => inside.extend([one, other]),
+                [Some(Some(robot)), None] | [None, Some(Some(robot))] => inside.push(robot),
+                _ => {}
+            }
+        }
+        inside
     }
 
     /// Those of a team that are off and were reached by a packet since.
