@@ -34,7 +34,7 @@ pub(super) fn digest(
 ) {
     let mut bytes: SmallVec<[u8; 512]> = SmallVec::new();
     for (_, words) in sorted(bodies.iter()) {
-        words.iter().for_each(|word| bytes.extend_from_slice(&word.to_le_bytes()));
+        bytes.extend_from_slice(words.map(u32::to_le_bytes).as_flattened());
     }
     bytes.extend_from_slice(&state.score[0].to_le_bytes());
     bytes.extend_from_slice(&state.score[1].to_le_bytes());
