@@ -109,9 +109,9 @@ fn of_two_chins_in_one_tick_either_gets_the_ball_alike_and_never_both() {
 
 /// Duels from mirrored starts, played by the shipped strategy without booking: whoever brings the ball 0.8 m toward its goal wins.
 ///
-/// With 200 decided duels a side whose true share of wins is 0.65 is found in 84 of 100 such tests, and one with 0.62 in 54. One with
-/// 0.523, as measured over 4,000 duels when kicks were carried out in the order of robots, is not: it takes thousands of duels to see
-/// that little, and the two tests above to see where it came from.
+/// With 500 decided duels a side whose true share of wins is 0.60 is found in 88 of 100 such tests, one with 0.57 in 43, and one
+/// with 0.523, as measured over 4,000 duels when kicks were carried out in the order of robots, in 1: it takes thousands of duels
+/// to see that little, and the two tests above to see where it came from.
 #[test]
 fn mirrored_duels_are_won_by_either_side_alike() {
     let (mut duels, mut wins) = (Duels::new(), [0; 2]);
@@ -131,8 +131,8 @@ fn mirrored_duels_are_won_by_either_side_alike() {
     }
     let decided = wins[0] + wins[1];
     let deviation = deviation(wins[0], decided);
-    assert!(decided >= 200 && deviation.abs() < 3.3, "{wins:?}, {deviation:.1} deviations");
+    assert!(decided >= 500 && deviation.abs() < 3.3, "{wins:?}, {deviation:.1} deviations");
 }
 
-/// As many as it takes for 200 that are decided.
-const DUELS: u64 = 280;
+/// As many as it takes for 500 that are decided.
+const DUELS: u64 = 700;
