@@ -2,7 +2,7 @@
 //!
 //! Stations take turns as 802.11's distributed coordination function has it for frames that nobody acknowledges: a station listens
 //! first; if the channel is busy it waits until that has been idle for a while, and then for a number of slots that it draws. Two that
-//! draw the same collide. All robots hear each other.
+//! draw the same collide. All robots hear each other, equally loud.
 
 #[cfg(test)]
 mod tests;
@@ -94,7 +94,8 @@ pub struct Air {
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Station {
     waiting: VecDeque<AirFrame>,
-    /// Slots to wait once the channel is idle; none if a frame may go at once on a channel that is.
+    /// Slots to wait once the channel is idle; none if a frame may go at once on a channel that is. Who has waited them without a frame
+    /// draws again if the next one finds the channel busy.
     backoff: Option<u32>,
 }
 
@@ -175,8 +176,9 @@ impl Air {
             if station.start(airtime, idle).is_some_and(|other| other < start + 0.5 * slot) {
                 frames.extend(station.waiting.pop_front());
                 station.backoff = Some(self.dice.below(usize::from(airtime.window) + 1) as u32);
-            } else if let Some(slots) = &mut station.backoff {
-                *slots = slots.saturating_sub(((start - idle) / slot + 0.5).max(0.0) as u32);
+            } else if let Some(slots) = station.backoff {
+                let over = ((start - idle) / slot + 0.5).max(0.0) as u32;
+                station.backoff = slots.checked_sub(over).filter(|left| *left > 0);
             }
         }
         let longest = frames.iter().map(|frame| airtime.frame(frame.bytes()));

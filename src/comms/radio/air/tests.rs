@@ -75,6 +75,57 @@ fn two_that_begin_in_one_slot_collide_and_others_wait_for_them() {
     assert!(fates.len() == 2 && fates.iter().all(|fate| matches!(fate, OffAir::Collided(_))), "{fates:?}");
 }
 
+/// A row of what ns-3 says.
+#[derive(Debug, serde::Deserialize)]
+struct Ns3Row {
+    place: String,
+    stations: u8,
+    /// The share of the time that all frames together would take.
+    load: f64,
+    delivered: f64,
+}
+
+/// The share of frames of 200 bytes that are heard if so many stations speak at random moments, as in `ns3_values.py`.
+fn heard_at(load: f64, stations: u8) -> f64 {
+    const TICKS_PER_SECOND: f32 = 1000.0;
+    const SECONDS: usize = 20;
+    let airtime = Airtime::default();
+    let (mut air, mut clock, mut dice) =
+        (Air::new(Seed(7)), Clock::new(TICKS_PER_SECOND), Dice::new(Seed(8), "talk", None));
+    let each = load / airtime.frame(200) / f64::from(stations) / f64::from(TICKS_PER_SECOND);
+    let (mut all, mut clear) = (0, 0);
+    for second in 0..=SECONDS {
+        for _ in 0..TICKS_PER_SECOND as usize {
+            let speaks = |dice: &mut Dice| second < SECONDS && dice.chance(each as f32);
+            let talk: Vec<_> =
+                (0..stations).filter(|_| speaks(&mut dice)).map(|from| said(from, 200)).collect();
+            all += talk.len();
+            let fates = air.tick(&airtime, talk, &clock);
+            clear += fates.iter().filter(|fate| matches!(fate, OffAir::Clear(_))).count();
+            clock.tick += 1;
+        }
+    }
+    clear as f64 / all as f64
+}
+
+#[test]
+fn as_many_frames_are_heard_as_in_ns3() {
+    let rows = csv::Reader::from_reader(&include_bytes!("../../../../tests/airtime/ns3_values.csv")[..])
+        .into_deserialize()
+        .collect::<Result<Vec<Ns3Row>, _>>()
+        .unwrap();
+    assert!(rows.len() >= 50);
+    for row in rows {
+        let ours = heard_at(row.load, row.stations);
+        match row.place.as_str() {
+            "equal" => assert!((ours - row.delivered).abs() < 0.05, "{row:?}, and {ours}"),
+            // There, a frame that is louder than the other one is heard.
+            "pitch" => assert!(ours < row.delivered + 0.02, "{row:?}, and {ours}"),
+            place => panic!("{place}"),
+        }
+    }
+}
+
 proptest! {
     #[test]
     fn every_datagram_comes_off_the_air_once(
