@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::Args;
 
 use super::ending::{CommandError, Ending};
-use super::options::{SeedOption, TeamsOptions};
+use super::options::{SeedOption, TeamsOptions, number_of};
 use super::trials::run_trials;
 use crate::data::AssetFolder;
 use crate::lab::duel::{DuelChoice, DuelPlan, DuelTeams};
@@ -21,19 +21,13 @@ pub(super) struct DuelCommand {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(2..=100_000))]
     trials: u32,
     /// After how long a trial is undecided.
-    #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = number_of("seconds", 1.0..=600.0))]
     seconds: f64,
     #[command(flatten)]
     seed: SeedOption,
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
-}
-
-/// Reads how long a trial may take.
-fn seconds(text: &str) -> Result<f64, String> {
-    let seconds = text.parse::<f64>().ok().filter(|seconds| (1.0..=600.0).contains(seconds));
-    seconds.ok_or_else(|| "must be a number of seconds, from 1 to 600".into())
 }
 
 impl DuelCommand {

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 
 use super::ending::{CommandError, Ending, print_json};
 use super::interrupt::Interrupt;
-use super::options::{self, SeedOption};
+use super::options::{self, SeedOption, number_of};
 use super::recording;
 use crate::app::whole_file;
 use crate::comms::radio::Act;
@@ -30,10 +30,10 @@ pub(super) struct JamCommand {
     #[arg(long, default_value = "OneRobotARole")]
     harm: Harm,
     /// Each packet may also be so late, instead of being lost; may be given several times.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = number_of("seconds", 0.001..=10.0_f32))]
     delay: Vec<f32>,
     /// Each packet may also come once more so much later; may be given several times.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = number_of("seconds", 0.001..=10.0_f32))]
     again: Vec<f32>,
     /// No packet is lost; give a delay or a copy then.
     #[arg(long)]
@@ -61,11 +61,6 @@ pub(super) struct JamCommand {
     /// Print the result as JSON.
     #[arg(long)]
     json: bool,
-}
-
-fn seconds(text: &str) -> Result<f32, String> {
-    let seconds = text.parse::<f32>().ok().filter(|seconds| (0.001..=10.0).contains(seconds));
-    seconds.ok_or_else(|| "must be a number of seconds, from 0.001 to 10".into())
 }
 
 /// A time of a match.

@@ -1,7 +1,10 @@
 //! What a person may change of a match on the command line.
 
+use std::fmt::Display;
 use std::net::{IpAddr, SocketAddr};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::str::FromStr;
 use std::time::Duration;
 
 use clap::{ArgGroup, Args};
@@ -98,10 +101,24 @@ impl SeedOption {
     }
 }
 
+/// What reads a number of such things that lies between these two.
+pub(super) fn number_of<N>(
+    things: &'static str,
+    range: RangeInclusive<N>,
+) -> impl Fn(&str) -> Result<N, String> + Clone
+where
+    N: FromStr + PartialOrd + Display + Clone,
+{
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        number
+            .ok_or_else(|| format!("must be a number of {things}, from {} to {}", range.start(), range.end()))
+    }
+}
+
 /// Reads a time of up to a day.
 pub(super) fn seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse::<f32>().ok().filter(|seconds| (0.0..=86_400.0).contains(seconds));
-    seconds.map(Duration::from_secs_f32).ok_or_else(|| "must be a number of seconds, from 0 to 86400".into())
+    number_of("seconds", 0.0..=86_400.0)(text).map(Duration::from_secs_f32)
 }
 
 /// Reads two numbers with a comma between.

@@ -8,7 +8,7 @@ use clap::Args;
 use super::ending::{CommandError, Ending};
 use super::experiment::quietly;
 use super::interrupt::Interrupt;
-use super::options::SeedOption;
+use super::options::{SeedOption, number_of};
 use super::progress::progress_bar;
 use crate::app::whole_file;
 use crate::data::AssetFolder;
@@ -20,7 +20,7 @@ pub(super) struct SoakCommand {
     #[arg(value_name = "STRATEGY")]
     strategies: Vec<String>,
     /// How much is played, in simulated hours of all matches together.
-    #[arg(long, value_name = "H", default_value = "10", value_parser = hours)]
+    #[arg(long, value_name = "H", default_value = "10", value_parser = number_of("hours", 0.001..=100_000.0))]
     hours: f64,
     /// How many matches are played at a time; as many as there are cores if not given.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -30,11 +30,6 @@ pub(super) struct SoakCommand {
     /// Where the smallest match that breaks something is written, as a scenario that fails.
     #[arg(long, value_name = "FILE", default_value = "soak.ron")]
     out: PathBuf,
-}
-
-fn hours(text: &str) -> Result<f64, String> {
-    let hours = text.parse::<f64>().ok().filter(|hours| (0.001..=100_000.0).contains(hours));
-    hours.ok_or_else(|| "must be a number of hours, from 0.001 to 100000".into())
 }
 
 impl SoakCommand {

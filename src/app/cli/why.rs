@@ -8,6 +8,7 @@ use clap::Args;
 use super::ending::{CommandError, Ending, print_json};
 use super::export::export_replay;
 use super::interrupt::Interrupt;
+use super::options::number_of;
 use super::progress::progress_bar;
 use crate::app::whole_file::{check_writable, write_whole};
 use crate::lab::export::{ExportWishes, MOST_FORKS, PageForks, PageWish};
@@ -22,7 +23,7 @@ pub(super) struct WhyCommand {
     #[arg(long, value_name = "TICK")]
     at: Option<u64>,
     /// How many seconds before that things are changed.
-    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = horizon)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = number_of("seconds", 0.1..=60.0_f32))]
     horizon: f32,
     /// With how many other dice each difference is tried.
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(0..=1000))]
@@ -42,11 +43,6 @@ pub(super) struct WhyCommand {
 }
 
 /// Reads a time that the radio remembers.
-fn horizon(text: &str) -> Result<f32, String> {
-    let seconds = text.parse::<f32>().ok().filter(|seconds| (0.1..=60.0).contains(seconds));
-    seconds.ok_or_else(|| "must be a number of seconds, from 0.1 to 60".into())
-}
-
 impl WhyCommand {
     pub(super) fn run(&self, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(page) = &self.page {

@@ -112,10 +112,8 @@ struct AirFrame {
 pub enum OffAir {
     /// Every robot could hear it.
     Clear(Datagram),
-    /// Another frame was on air at the same time.
-    Collided(Datagram),
-    /// Too many frames of the robot were waiting.
-    Crowded(Datagram),
+    /// Another frame was on air at the same time, or too many of the robot's were waiting.
+    Lost(Datagram),
 }
 
 impl Air {
@@ -149,7 +147,7 @@ impl Air {
             let is_full = station.waiting.len() >= airtime.queue;
             match station.waiting.back_mut().filter(|frame| frame.ready == ready && frame.holds(&datagram)) {
                 Some(frame) => frame.datagrams.push(datagram),
-                None if is_full => off.push(OffAir::Crowded(datagram)),
+                None if is_full => off.push(OffAir::Lost(datagram)),
                 None => station.waiting.push_back(AirFrame { datagrams: vec![datagram], ready }),
             }
         }
@@ -183,7 +181,7 @@ impl Air {
         }
         let longest = frames.iter().map(|frame| airtime.frame(frame.bytes()));
         self.free = start + longest.fold(0.0, f64::max);
-        let fate = if frames.len() == 1 { OffAir::Clear } else { OffAir::Collided };
+        let fate = if frames.len() == 1 { OffAir::Clear } else { OffAir::Lost };
         off.extend(frames.into_iter().flat_map(|frame| frame.datagrams).map(fate));
     }
 }

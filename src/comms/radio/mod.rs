@@ -118,7 +118,7 @@ pub(crate) fn transmit_datagrams(
     for off_air in radio.channel.off_air(said, &clock) {
         let (datagram, is_clear) = match off_air {
             OffAir::Clear(datagram) => (datagram, true),
-            OffAir::Collided(datagram) | OffAir::Crowded(datagram) => (datagram, false),
+            OffAir::Lost(datagram) => (datagram, false),
         };
         // Computers have no antenna in a simulated match.
         let Some(packet) = Packet::of(&datagram) else { continue };
