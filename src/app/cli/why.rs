@@ -23,6 +23,7 @@ pub(super) struct WhyCommand {
     #[arg(long, value_name = "TICK")]
     at: Option<u64>,
     /// How many seconds before that things are changed.
+    // The radio remembers a minute.
     #[arg(long, value_name = "SECONDS", default_value_t = 30.0, value_parser = number_of("seconds", 0.1..=60.0_f32))]
     horizon: f32,
     /// With how many other dice each difference is tried.
@@ -42,7 +43,6 @@ pub(super) struct WhyCommand {
     json: bool,
 }
 
-/// Reads a time that the radio remembers.
 impl WhyCommand {
     pub(super) fn run(&self, out: &mut impl Write) -> Result<Ending, CommandError> {
         if let Some(page) = &self.page {

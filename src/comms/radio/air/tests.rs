@@ -14,21 +14,34 @@ fn said(from: u8, bytes: usize) -> Datagram {
     }
 }
 
-/// The share of datagrams that were heard, and that of those that came off the air by the end, if so many stations each say something
-/// with this probability in each tick.
-fn delivered(airtime: &Airtime, stations: u8, bytes: usize, probability: f32) -> (f64, f64) {
-    let (mut air, mut clock, mut dice) =
-        (Air::new(Seed(7)), Clock::new(60.0), Dice::new(Seed(8), "talk", None));
-    let (mut all, mut off, mut clear) = (0, 0, 0);
-    for _ in 0..6_000 {
-        let talk: Vec<Datagram> =
-            (0..stations).filter(|_| dice.chance(probability)).map(|from| said(from, bytes)).collect();
-        all += talk.len();
-        let fates = air.tick(airtime, talk, &clock);
+/// How many datagrams are said, come off the air, and are heard, in this order.
+type Counts = [usize; 3];
+
+/// So many stations each say something with this probability in each of so many ticks, and are silent in as many as come then.
+fn talk(
+    airtime: &Airtime,
+    mut clock: Clock,
+    (stations, bytes, probability): (u8, usize, f32),
+    (loud, silent): (u32, u32),
+) -> Counts {
+    let (mut air, mut dice) = (Air::new(Seed(7)), Dice::new(Seed(8), "talk", None));
+    let [mut all, mut off, mut clear] = [0; 3];
+    for tick in 0..loud + silent {
+        let speaks = |dice: &mut Dice| tick < loud && dice.chance(probability);
+        let said: Vec<_> =
+            (0..stations).filter(|_| speaks(&mut dice)).map(|from| said(from, bytes)).collect();
+        all += said.len();
+        let fates = air.tick(airtime, said, &clock);
         off += fates.len();
         clear += fates.iter().filter(|fate| matches!(fate, OffAir::Clear(_))).count();
         clock.tick += 1;
     }
+    [all, off, clear]
+}
+
+/// The share of datagrams that were heard, and that of those that came off the air by the end.
+fn delivered(airtime: &Airtime, stations: u8, bytes: usize, probability: f32) -> (f64, f64) {
+    let [all, off, clear] = talk(airtime, Clock::new(60.0), (stations, bytes, probability), (6_000, 0));
     (clear as f64 / off.max(1) as f64, off as f64 / all.max(1) as f64)
 }
 
@@ -89,24 +102,12 @@ struct Ns3Row {
 
 /// The share of frames of 200 bytes that are heard if so many stations speak at random moments, as in `ns3_values.py`.
 fn heard_at(load: f64, stations: u8) -> f64 {
-    const TICKS_PER_SECOND: f32 = 1000.0;
-    const SECONDS: usize = 20;
+    const TICKS_PER_SECOND: u32 = 1000;
     let airtime = Airtime::default();
-    let (mut air, mut clock, mut dice) =
-        (Air::new(Seed(7)), Clock::new(TICKS_PER_SECOND), Dice::new(Seed(8), "talk", None));
     let each = load / airtime.frame(200) / f64::from(stations) / f64::from(TICKS_PER_SECOND);
-    let (mut all, mut clear) = (0, 0);
-    for second in 0..=SECONDS {
-        for _ in 0..TICKS_PER_SECOND as usize {
-            let speaks = |dice: &mut Dice| second < SECONDS && dice.chance(each as f32);
-            let talk: Vec<_> =
-                (0..stations).filter(|_| speaks(&mut dice)).map(|from| said(from, 200)).collect();
-            all += talk.len();
-            let fates = air.tick(&airtime, talk, &clock);
-            clear += fates.iter().filter(|fate| matches!(fate, OffAir::Clear(_))).count();
-            clock.tick += 1;
-        }
-    }
+    let ticks = (20 * TICKS_PER_SECOND, TICKS_PER_SECOND);
+    let [all, _, clear] =
+        talk(&airtime, Clock::new(TICKS_PER_SECOND as f32), (stations, 200, each as f32), ticks);
     clear as f64 / all as f64
 }
 
