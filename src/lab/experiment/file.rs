@@ -1,9 +1,11 @@
 //! An experiment as it is written: the serde types of `assets/experiments/*.ron`.
 
+use std::path::{Component, Path};
+
 use serde::{Deserialize, Serialize};
 
 use super::metric::Metric;
-use crate::data::{Bound, Fault, Field, Validate, check_count, ensure};
+use crate::data::{AssetKind, Bound, Fault, Field, Validate, check_count, ensure};
 use crate::ids::Team;
 use crate::lab::scenario::{Dependency, TimedEvent};
 use crate::rng::LARGEST_SEED;
@@ -127,6 +129,8 @@ pub enum DesignChange {
     HalfMinutes(f32),
     /// A number of a file is another; file and path as in [`FactorLevels::Values`].
     Number { file: String, path: String, to: f64 },
+    /// The same for one team alone, of a file that it plays by.
+    TeamNumber { team: Team, file: String, path: String, to: f64 },
     /// Where matches name a file of the asset folder, such as `pitches/middle_size_2001.ron`, they get what is in another one.
     Instead { of: String, read: String },
     /// A piece of a team's teamwork is switched off, as far as its strategy has it.
@@ -323,19 +327,34 @@ impl Validate for Factor {
     }
 }
 
-fn check_changes(changes: &[DesignChange]) -> Result<(), Fault> {
+/// Checks changes that a file lists, as far as they can be without other files.
+pub(in crate::lab) fn check_changes(changes: &[DesignChange]) -> Result<(), Fault> {
     for (place, change) in changes.iter().enumerate() {
-        let at = Field::root().index(place);
-        match change {
-            DesignChange::HalfMinutes(minutes) => {
-                Bound::MINUTES.check("HalfMinutes", *minutes).map_err(|fault| fault.inside(&at))?;
-            }
+        let checked = match change {
+            DesignChange::HalfMinutes(minutes) => Bound::MINUTES.check("HalfMinutes", *minutes),
             DesignChange::Number { to, .. } => {
                 ensure(to.is_finite(), "Number.to", || "must be finite".into())
-                    .map_err(|fault| fault.inside(&at))?;
             }
-            _ => {}
-        }
+            DesignChange::TeamNumber { file, to, .. } => {
+                ensure(to.is_finite(), "TeamNumber.to", || "must be finite".into())
+                    .and_then(|()| check_is_a_teams("TeamNumber.file", file))
+            }
+            _ => Ok(()),
+        };
+        checked.map_err(|fault| fault.inside(&Field::root().index(place)))?;
     }
     Ok(())
+}
+
+/// What files of the asset folder a team plays by; all others are the match's.
+const OF_A_TEAM: [AssetKind; 4] =
+    [AssetKind::Strategy, AssetKind::Robot, AssetKind::Sensing, AssetKind::Camera];
+
+/// Checks that a file is one that a team plays by.
+pub(in crate::lab) fn check_is_a_teams(field: &str, file: &str) -> Result<(), Fault> {
+    let folders = OF_A_TEAM.map(AssetKind::folder);
+    let is_plain = Path::new(file).components().all(|part| matches!(part, Component::Normal(_)));
+    ensure(is_plain && folders.iter().any(|folder| Path::new(file).starts_with(folder)), field, || {
+        format!("must be a file that a team plays by, in {}", folders.join(", "))
+    })
 }

@@ -24,7 +24,7 @@ pub use file::{
     ClaimedDifference, DesignChange, ExperimentFile, Factor, FactorLevels, NamedLevel, SeedBlocks,
     StatedClaim, UntilRule,
 };
-pub(in crate::lab) use file::{PlacedChange, placed};
+pub(in crate::lab) use file::{PlacedChange, check_changes, check_is_a_teams, placed};
 pub use metric::{MatchFigures, Metric};
 pub use pairing::PairedRows;
 pub use parquet::write_parquet;

@@ -13,11 +13,10 @@ use crate::data::{
     with_number,
 };
 use crate::game::requests::Request;
-use crate::game::{Choice, Match, MatchPlan, file_named};
+use crate::game::{Choice, Match, MatchPlan, TeamPlan, file_named};
 use crate::ids::Team;
 use crate::lab::scenario::{Dependency, TimedEvent, check_event_of_match, has, requests, switch_off};
 use crate::lab::unbroken::unbroken;
-use crate::strategy::Strategy;
 
 /// A treatment that can be played.
 #[derive(Clone, Debug)]
@@ -40,8 +39,15 @@ impl TreatmentPlan {
         design: &Source,
         changes: &[PlacedChange],
     ) -> Result<TreatmentPlan, DataError> {
-        let (assets, notes) = assets.with_texts(changed_texts(assets, design, changes)?).noting();
-        let mut plan = MatchPlan::read(&assets, &choice(&assets, design, changes)?)?;
+        let choice = choice(assets, design, changes)?;
+        let changed =
+            |whose| changed_texts(assets, design, changes, whose).map(|texts| assets.with_texts(texts));
+        let (assets, notes) = changed(None)?.noting();
+        let mut plan = MatchPlan::read(&assets, &choice)?;
+        for team in Team::BOTH.into_iter().filter(|team| has_own_numbers(*team, changes)) {
+            let own = MatchPlan::read(&changed(Some(team))?, &choice)?;
+            plan.teams[team.index()] = own.teams[team.index()].clone();
+        }
         let mut script = Vec::new();
         for (at, change) in changes {
             match change {
@@ -64,15 +70,15 @@ impl TreatmentPlan {
         Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets })
     }
 
+    /// The team that is named first.
+    pub fn home(&self) -> &TeamPlan {
+        &self.plans[0].teams[0]
+    }
+
     /// Plays the match with a seed. One that breaks the program is an error that says so.
     pub fn play(&self, seed: u64, swapped: bool) -> Result<MatchResult, String> {
         let plan = MatchPlan { seed, ..self.plans[usize::from(swapped)].clone() };
         unbroken(|| play(&plan, swapped))
-    }
-
-    /// The strategy of the team that is named second.
-    pub fn opponent(&self) -> &Strategy {
-        &self.plans[0].teams[1].strategy
     }
 }
 
@@ -88,17 +94,26 @@ fn play(plan: &MatchPlan, swapped: bool) -> MatchResult {
     MatchResult { digest: record.digest, seconds: clock.now(), played: record.played, values }
 }
 
-/// The files that are other than in the asset folder.
+/// Whether a number of a file is another for this team alone.
+fn has_own_numbers(team: Team, changes: &[PlacedChange]) -> bool {
+    changes
+        .iter()
+        .any(|(_, change)| matches!(change, DesignChange::TeamNumber { team: whose, .. } if *whose == team))
+}
+
+/// The files that are other than in the asset folder, for both teams or as one of them alone has them.
 fn changed_texts(
     assets: &AssetFolder,
     design: &Source,
     changes: &[PlacedChange],
+    whose: Option<Team>,
 ) -> Result<AssetTexts, DataError> {
     let mut texts = AssetTexts::new();
     for (at, change) in changes {
         // Where a number or a file is named: in the change itself, but for the values of a factor.
         let at = match change {
             DesignChange::Number { .. } if !is_values(at) => &at.key("Number"),
+            DesignChange::TeamNumber { .. } => &at.key("TeamNumber"),
             DesignChange::Instead { .. } => &at.key("Instead"),
             _ => at,
         };
@@ -115,7 +130,8 @@ fn changed_texts(
             Ok((path, text))
         };
         match change {
-            DesignChange::Number { file, path, to } => {
+            DesignChange::TeamNumber { team, .. } if whose != Some(*team) => {}
+            DesignChange::Number { file, path, to } | DesignChange::TeamNumber { file, path, to, .. } => {
                 let (place, text) = text_of(&texts, "file", file)?;
                 let number =
                     number_at(&text, path).map_err(|message| design.error_at(&at.key("path"), message))?;
@@ -204,4 +220,45 @@ fn hash(root: &Path, texts: &AssetTexts, changes: &[PlacedChange]) -> u64 {
         add(&format!("{change:?}"));
     }
     hash.digest()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::experiment::file::placed;
+
+    fn read(changes: &[DesignChange]) -> TreatmentPlan {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        TreatmentPlan::read(&assets, &Source::new("a.ron", ""), &placed(&Field::root(), changes)).unwrap()
+    }
+
+    #[test]
+    fn a_number_of_a_team_is_not_its_opponents_whatever_files_they_share() {
+        let file = String::from("strategies/hammerheads_2001.ron");
+        let path = String::from("schemas.dock.DockBehind.standoff");
+        let teams =
+            || [DesignChange::Home("hammerheads_swap".into()), DesignChange::Away("hammerheads_2000".into())];
+        let shipped = read(&teams());
+        let changed = |team| {
+            let own = DesignChange::TeamNumber { team, file: file.clone(), path: path.clone(), to: 0.5 };
+            read(&[teams().as_slice(), &[own]].concat())
+        };
+        for (team, other) in [(Team::Home, Team::Away), (Team::Away, Team::Home)] {
+            let changed = changed(team);
+            assert_ne!(changed.assets, shipped.assets);
+            for (swapped, (plan, before)) in changed.plans.iter().zip(&shipped.plans).enumerate() {
+                let side = |team: Team| (team.index() + swapped) % 2;
+                let strategy = |plan: &MatchPlan, team| plan.teams[side(team)].strategy.clone();
+                assert_ne!(strategy(plan, team), strategy(before, team));
+                assert_eq!(strategy(plan, other), strategy(before, other));
+            }
+        }
+        let number = DesignChange::Number { file: file.clone(), path: path.clone(), to: 0.5 };
+        let both = read(&[teams().as_slice(), &[number]].concat());
+        for team in Team::BOTH {
+            let [own, shared] =
+                [changed(team), both.clone()].map(|plan| plan.plans[0].teams[team.index()].strategy.clone());
+            assert_eq!(own, shared);
+        }
+    }
 }
