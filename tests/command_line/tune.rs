@@ -118,8 +118,14 @@ fn what_cannot_be_tuned_is_refused_in_one_line_before_anything_is_played() {
         ("low: 0.6, high: 1.5", "low: 0.6, high: 0.7", "parameters[0]"),
         ("[\"near\", \"far\"]", "[\"far\", \"near\"]", "never_falling"),
         ("first: 50", "first: 3", "held_out.first"),
-        ("ball_chasers", "hammerheads_2001", "opponent"),
+        ("strategies/hammerheads_2001.ron", "radios/good.ron", "parameters[0].at[0].file"),
         ("strategies/hammerheads_2001.ron", "strategies/nobody.ron", "nobody.ron"),
+        ("Home(\"hammerheads_2001\")", "Home(\"ball_chasers\")", "none of these numbers"),
+        (
+            "parameters: [",
+            "teams: [(name: \"old\", changes: [Home(\"nobody\")])], parameters: [",
+            "teams[0].changes[0].Home",
+        ),
     ] {
         let tuning = TUNING.replacen(was, is, 1);
         assert_ne!(tuning, TUNING);
@@ -131,4 +137,40 @@ fn what_cannot_be_tuned_is_refused_in_one_line_before_anything_is_played() {
         assert_eq!(message.lines().count(), 1, "{message}");
         assert!(!stage.path("out").exists());
     }
+}
+
+/// The same tuning of two teams, one of which has the opponent's files.
+fn of_two_teams() -> String {
+    let teams = "teams: [(name: \"old\", changes: [Home(\"hammerheads_2000\"), Away(\"hammerheads_2001\")]), (name: \"new\")], parameters: [";
+    TUNING.replacen("parameters: [", teams, 1)
+}
+
+#[test]
+fn several_teams_are_tuned_each_as_if_it_were_alone_and_are_reported_together() {
+    let (stage, alone) = (Stage::new(&of_two_teams()), Stage::new(TUNING));
+    let said = stage.tune("out");
+    alone.tune("out");
+    assert_eq!(stage.read("out/new/matches.csv"), alone.read("out/matches.csv"));
+    assert_ne!(stage.read("out/old/matches.csv"), alone.read("out/matches.csv"));
+
+    let together = stage.read("out/report.md");
+    assert!(said.ends_with(&together), "{said}");
+    let lines = |text: &str| {
+        let lines = text.lines().filter(|line| line.starts_with("| old |") || line.starts_with("| new |"));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(&together).len(), 2, "{together}");
+
+    let folder = stage.path("out").display().to_string();
+    let report = || touchline(&["report", &folder]);
+    let chapter = text(&report().stdout);
+    assert_eq!(lines(&chapter), lines(&together), "{chapter}");
+    assert!(chapter.contains("## How far to keep\n"), "{chapter}");
+    assert!(chapter.contains(&format!("touchline tune {folder}/design.ron --out {folder}\n")), "{chapter}");
+    let table = stage.read("out/old/matches.csv");
+    let (most, _) = table.trim_end().rsplit_once('\n').expect("there are rows");
+    fs::write(stage.path("out/old/matches.csv"), format!("{most}\n")).expect("it is written");
+    let output = report();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("1 of its matches are missing"), "{}", text(&output.stderr));
 }

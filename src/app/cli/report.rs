@@ -9,14 +9,16 @@ use clap::Args;
 use super::ending::{CommandError, Ending};
 use super::experiment::{ResultsFolder, folder_beside};
 use super::shell_word::quoted;
+use super::tune::reports_in;
 use crate::app::whole_file::{check_writable, write_whole};
-use crate::data::{AssetFolder, AssetKind, DataError};
-use crate::lab::experiment::{ExperimentPlan, ExperimentRow};
-use crate::lab::report::{ReportDocument, ReportedExperiment};
+use crate::data::{AssetFolder, AssetKind, DataError, Source};
+use crate::lab::kinds::kind_of;
+use crate::lab::report::{ReportBlock, ReportDocument, ReportedExperiment};
+use crate::lab::tune::teams_beside_each_other;
 
 #[derive(Args, Debug)]
 pub(super) struct ReportCommand {
-    /// The folders of experiments, as `experiment` leaves them, in the order of the chapters.
+    /// The folders of experiments and tunings, as `experiment` and `tune` leave them, in the order of the chapters; tunings come first.
     #[arg(required = true, value_name = "FOLDER")]
     folders: Vec<PathBuf>,
     /// Write a page for a browser, with plots; it needs no other file.
@@ -33,9 +35,14 @@ impl ReportCommand {
         for file in files.into_iter().flatten() {
             check_writable(file).map_err(CommandError::file(file))?;
         }
-        let experiments = self.folders.iter().map(|folder| reported(assets, folder));
-        let experiments = experiments.collect::<Result<Vec<_>, _>>()?;
-        let report = ReportDocument::of(&experiments, &self.command());
+        let (mut experiments, mut tunings) = (Vec::new(), Vec::new());
+        for folder in &self.folders {
+            match is_tuned(folder)? {
+                true => tunings.extend(tuned(assets, folder)?),
+                false => experiments.push(reported(assets, folder)?),
+            }
+        }
+        let report = ReportDocument::of(&experiments, tunings, &self.command());
         if let Some(file) = &self.html {
             write_whole(file, report.to_html().as_bytes()).map_err(CommandError::file(file))?;
         }
@@ -60,6 +67,31 @@ impl ReportCommand {
     }
 }
 
+/// Whether a folder was left by a tuning. What is told of a design that is no tuning is for experiments to say.
+fn is_tuned(folder: &Path) -> Result<bool, DataError> {
+    let design = folder.join("design.ron");
+    if !design.is_file() {
+        let message = "holds no design.ron: it is no folder of an experiment or a tuning";
+        return Err(DataError::new(folder, message));
+    }
+    Ok(kind_of(&Source::read(&design)?) == Ok(AssetKind::Tuning))
+}
+
+/// The chapter of a tuning.
+fn tuned(assets: &AssetFolder, path: &Path) -> Result<Vec<ReportBlock>, DataError> {
+    let (plan, reports) = reports_in(assets, path)?;
+    let command = command("tune", shipped_name(assets, AssetKind::Tuning, plan.text()), path, "");
+    let mut blocks = vec![ReportBlock::Chapter(plan.file.name.clone())];
+    let description = Some(&plan.file.description).filter(|description| !description.is_empty());
+    blocks.extend(description.cloned().map(ReportBlock::Text));
+    blocks.push(ReportBlock::Text(
+        "What plays the matches again, or goes on with those that are missing:".into(),
+    ));
+    blocks.push(ReportBlock::Code(command));
+    blocks.extend(teams_beside_each_other(&plan, &reports));
+    Ok(blocks)
+}
+
 fn reported(assets: &AssetFolder, path: &Path) -> Result<ReportedExperiment, DataError> {
     let folder = ResultsFolder::new(path.to_owned());
     let plan = folder.plan(assets)?;
@@ -67,35 +99,28 @@ fn reported(assets: &AssetFolder, path: &Path) -> Result<ReportedExperiment, Dat
     if rows.is_empty() {
         return Err(DataError::new(folder.csv(), "has no rows"));
     }
-    let command = command(assets, &folder, &plan, &rows);
-    Ok(ReportedExperiment { plan, rows, command })
-}
-
-/// What plays the rows of a folder again.
-fn command(
-    assets: &AssetFolder,
-    folder: &ResultsFolder,
-    plan: &ExperimentPlan,
-    rows: &[ExperimentRow],
-) -> String {
-    let name = shipped_name(assets, plan);
-    let design = name.clone().unwrap_or_else(|| quoted(&folder.design()));
-    let usual = name.map(|name| folder_beside(&name, "results"));
-    let out = match usual {
-        Some(usual) if folder.path().file_name() == usual.file_name() => String::new(),
-        _ => format!(" --out {}", quoted(folder.path())),
-    };
     let last = rows.iter().map(|row| row.key.seed - plan.file.blocks.first + 1).max().unwrap_or_default();
     let is_part = last < plan.file.blocks.number.into() && plan.file.until.is_none();
     let seeds = if is_part { format!(" --seeds {last}") } else { String::new() };
-    format!("touchline experiment {design}{seeds}{out}")
+    let command =
+        command("experiment", shipped_name(assets, AssetKind::Experiment, &plan.text), path, &seeds);
+    Ok(ReportedExperiment { plan, rows, command })
 }
 
-/// The name of the experiment among the assets that is word for word this one.
-fn shipped_name(assets: &AssetFolder, plan: &ExperimentPlan) -> Option<String> {
-    let mut names = assets.names(AssetKind::Experiment).into_iter();
-    names.find(|name| {
-        let text = fs::read_to_string(assets.file(AssetKind::Experiment, name));
-        text.is_ok_and(|text| text == plan.text)
-    })
+/// What plays what is in a folder again, by the name of the asset if there is one.
+fn command(command: &str, name: Option<String>, folder: &Path, options: &str) -> String {
+    let ending = if command == "tune" { "tuned" } else { "results" };
+    let design = name.clone().unwrap_or_else(|| quoted(&folder.join("design.ron")));
+    let usual = name.map(|name| folder_beside(&name, ending));
+    let out = match usual {
+        Some(usual) if folder.file_name() == usual.file_name() => String::new(),
+        _ => format!(" --out {}", quoted(folder)),
+    };
+    format!("touchline {command} {design}{options}{out}")
+}
+
+/// The name of the asset that is word for word this one.
+fn shipped_name(assets: &AssetFolder, kind: AssetKind, text: &str) -> Option<String> {
+    let mut names = assets.names(kind).into_iter();
+    names.find(|name| fs::read_to_string(assets.file(kind, name)).is_ok_and(|shipped| shipped == text))
 }

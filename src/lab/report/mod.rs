@@ -1,4 +1,4 @@
-//! Experiments as something to read: what was played, what came out, which claims held, as a page for a browser and as Markdown.
+//! Experiments, and the tunings before them, as something to read: what was played, what came out, which claims held, as a page for a browser and as Markdown.
 //!
 //! Rows become a [`ReportDocument`] of text, tables and plots; that becomes HTML, with the plots as SVG in it, or Markdown, which has
 //! the tables alone. All of it is pure.
@@ -19,10 +19,15 @@ use evaluated::Evaluated;
 pub use evaluated::ReportedExperiment;
 
 impl ReportDocument {
-    /// Reports experiments, in their order; `command` is what writes the report again.
-    pub fn of(experiments: &[ReportedExperiment], command: &str) -> ReportDocument {
+    /// Reports experiments, in their order, after chapters of something else; `command` is what writes the report again.
+    pub fn of(
+        experiments: &[ReportedExperiment],
+        chapters: Vec<ReportBlock>,
+        command: &str,
+    ) -> ReportDocument {
         let evaluated: Vec<Evaluated> = experiments.iter().map(Evaluated::of).collect();
         let mut blocks = overview::blocks(&evaluated, command);
+        blocks.extend(chapters);
         blocks.extend(evaluated.iter().flat_map(chapter::blocks));
         ReportDocument { title: "Results of experiments".into(), blocks }
     }

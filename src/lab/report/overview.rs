@@ -4,8 +4,8 @@ use super::document::{ReportBlock, ReportTable, cells};
 use super::evaluated::Evaluated;
 use crate::lab::experiment::JudgedClaim;
 
-const ABOUT: &str = "Touchline plays robot soccer between teams of behaviour-based robots that talk over a bad radio. Each chapter is \
-    an experiment: the same matches, played with one thing changed. A match is a matter of chance, so every change is tried with the same \
+const ABOUT: &str = "Touchline plays robot soccer between teams of behaviour-based robots that talk over a bad radio. A chapter is an \
+    experiment, the same matches played with one thing changed, or a tuning of the teams before they were compared. A match is a matter of chance, so every change is tried with the same \
     seeds of the dice, and what counts is the difference with equal seeds.";
 
 const HOW_TO_READ: [&str; 8] = [

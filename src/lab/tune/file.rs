@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::data::{Fault, Field, Validate, check_count, ensure};
-use crate::lab::experiment::{ClaimedDifference, DesignChange, Metric, SeedBlocks};
+use crate::lab::experiment::{
+    ClaimedDifference, DesignChange, Metric, NamedLevel, SeedBlocks, check_changes, check_is_a_teams,
+};
 
 /// Which numbers are to be found, by which matches they are judged, and what they may not break.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,7 +19,11 @@ pub struct TuningFile {
     /// The matches that are played; home is the team that is tuned.
     #[serde(default)]
     pub common: Vec<DesignChange>,
-    /// The numbers that may change.
+    /// The teams that are tuned, each in a search of its own with equal means: the same numbers, seeds and count of candidates. Without
+    /// any, the team of `common` is.
+    #[serde(default)]
+    pub teams: Vec<NamedLevel>,
+    /// The numbers that may change, of the home team alone.
     pub parameters: Vec<TunedParameter>,
     /// Parameters whose values never fall from left to right, by name: relations that a paper states.
     #[serde(default)]
@@ -52,7 +58,7 @@ pub struct TunedParameter {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TunedNumber {
-    /// Where the file is in the asset folder, such as `strategies/chaos_b3p.ron`.
+    /// Where the file is in the asset folder, such as `strategies/chaos_b3p.ron`; one that a team plays by.
     pub file: String,
     /// Where the number is in the file, such as `teamwork.ball_booking.timeout`.
     pub path: String,
@@ -85,6 +91,14 @@ impl BetterValue {
             BetterValue::More => ClaimedDifference::More,
         }
     }
+
+    /// How much of an objective is sought.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            BetterValue::Less => "the least",
+            BetterValue::More => "the most",
+        }
+    }
 }
 
 /// Candidates of a race and races at most.
@@ -102,6 +116,14 @@ impl Validate for TuningFile {
         let apart = self.training.first + u64::from(self.training.number) <= self.held_out.first
             || self.held_out.first + u64::from(self.held_out.number) <= self.training.first;
         ensure(apart, "held_out.first", || "seeds that judge must not be seeds of the training".into())?;
+        check_changes(&self.common).map_err(|fault| fault.inside(&Field::root().key("common")))?;
+        for (place, team) in self.teams.iter().enumerate() {
+            let at = Field::root().key("teams").index(place);
+            let is_new = self.teams[..place].iter().all(|other| other.name != team.name);
+            ensure(is_new, "name", || "is the name of another team".into())
+                .and_then(|()| check_team(team))
+                .map_err(|fault| fault.inside(&at))?;
+        }
         for (place, parameter) in self.parameters.iter().enumerate() {
             let at = Field::root().key("parameters").index(place);
             let is_new = self.parameters[..place].iter().all(|other| other.name != parameter.name);
@@ -131,10 +153,23 @@ impl TuningFile {
     }
 }
 
+/// A team has a folder of its name.
+fn check_team(team: &NamedLevel) -> Result<(), Fault> {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '_' || letter == '-';
+    ensure(!team.name.is_empty() && team.name.chars().all(is_plain), "name", || {
+        "must be of letters, digits, _ and -: it becomes a folder's name".into()
+    })?;
+    check_changes(&team.changes).map_err(|fault| fault.inside(&Field::root().key("changes")))
+}
+
 impl Validate for TunedParameter {
     fn validate(&self) -> Result<(), Fault> {
         ensure(!self.name.trim().is_empty(), "name", || "is empty".into())?;
         ensure(!self.at.is_empty(), "at", || "needs a place".into())?;
+        for (place, number) in self.at.iter().enumerate() {
+            check_is_a_teams("file", &number.file)
+                .map_err(|fault| fault.inside(&Field::root().key("at").index(place)))?;
+        }
         ensure(self.low.is_finite(), "low", || "must be finite".into())?;
         ensure(self.high.is_finite() && self.low < self.high, "high", || {
             format!("must be more than {}", self.low)
@@ -149,9 +184,10 @@ mod tests {
 
     const SOUND: &str = r#"(
         name: "x",
+        teams: [(name: "old"), (name: "new")],
         parameters: [
-            (name: "slow", at: [(file: "a.ron", path: "b")], low: 0, high: 1),
-            (name: "fast", at: [(file: "a.ron", path: "c")], low: 0, high: 1),
+            (name: "slow", at: [(file: "strategies/a.ron", path: "b")], low: 0, high: 1),
+            (name: "fast", at: [(file: "strategies/a.ron", path: "c")], low: 0, high: 1),
         ],
         never_falling: [["slow", "fast"]],
         objective: (metric: GoalDifference, better: More),
@@ -185,6 +221,14 @@ mod tests {
                 "low: 1, high: 1),\n            (name: \"fast\"",
                 "parameters[0].high",
             ),
+            ("name: \"new\"", "name: \"old\"", "teams[1].name"),
+            ("name: \"new\"", "name: \"../new\"", "teams[1].name"),
+            (
+                "name: \"new\"",
+                "name: \"new\", changes: [HalfMinutes(-1.0)]",
+                "teams[1].changes[0].HalfMinutes",
+            ),
+            ("strategies/a.ron", "radios/a.ron", "parameters[0].at[0].file"),
             ("number: 10),\n        held", "number: 0),\n        held", "training.number"),
         ] {
             let text = SOUND.replacen(was, is, 1);

@@ -1,20 +1,23 @@
 //! A tuning that can be played: the matches of any values of its parameters, and the files with them in.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::file::{BetterValue, TunedNumber, TuningFile};
+use super::file::{BetterValue, TunedNumber, TunedParameter, TuningFile};
 use super::race::ParameterSpace;
 use super::row::TuningRow;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, with_number};
+use crate::ids::Team;
 use crate::lab::all_cores::on_all_cores;
 use crate::lab::experiment::{DesignChange, PlacedChange, TreatmentPlan, VERSION, number_at, placed};
 
-/// A tuning that can be played.
+/// A tuning of one team that can be played.
 #[derive(Clone, Debug)]
 pub struct TuningPlan {
     /// What was asked.
     pub file: TuningFile,
+    /// The team among those of the file; none if it names none.
+    team: Option<usize>,
     source: Source,
     assets: AssetFolder,
     original: Vec<f64>,
@@ -29,6 +32,16 @@ pub struct TuningCandidate {
     treatment: TreatmentPlan,
 }
 
+/// Matches that a search asks for: some candidates, and of each match the place of its candidate, the seed, and whether the teams have
+/// each other's sides.
+#[derive(Clone, Debug)]
+pub struct WantedMatches {
+    /// Who plays.
+    pub candidates: Vec<TuningCandidate>,
+    /// Those of their matches that are not known yet.
+    pub matches: Vec<(usize, u64, bool)>,
+}
+
 impl TuningCandidate {
     /// Of all files that its matches are read from, and of its values, in hexadecimal.
     pub fn assets_hash(&self) -> String {
@@ -37,11 +50,11 @@ impl TuningCandidate {
 }
 
 impl TuningPlan {
-    /// Reads a tuning, by its name among the assets or its path, and everything that its matches need.
+    /// Reads a tuning, by its name among the assets or its path, and everything that its matches need: a plan for each of its teams.
     ///
     /// # Errors
     /// The first file that is missing or wrong, or the first thing that cannot be tuned, with its place.
-    pub fn read(assets: &AssetFolder, name: &str) -> Result<TuningPlan, DataError> {
+    pub fn read(assets: &AssetFolder, name: &str) -> Result<Vec<TuningPlan>, DataError> {
         TuningPlan::read_file(assets, &assets.file(AssetKind::Tuning, name))
     }
 
@@ -49,42 +62,31 @@ impl TuningPlan {
     ///
     /// # Errors
     /// As there.
-    pub fn read_file(assets: &AssetFolder, path: &Path) -> Result<TuningPlan, DataError> {
+    pub fn read_file(assets: &AssetFolder, path: &Path) -> Result<Vec<TuningPlan>, DataError> {
         let source = assets.read(path)?;
         let file: TuningFile = source.parse_sound()?;
-        let before = TreatmentPlan::read(assets, &source, &changes(&file, None))?;
-        let mut original = Vec::new();
-        for (place, parameter) in file.parameters.iter().enumerate() {
-            let at = Field::root().key("parameters").index(place);
-            let mut values = Vec::new();
-            for (place, number) in parameter.at.iter().enumerate() {
-                let at = at.key("at").index(place);
-                values.push(
-                    value(assets, number)
-                        .map_err(|(field, message)| source.error_at(&at.key(field), message))?,
-                );
-            }
-            let is_one = values.iter().all(|value| *value == values[0]);
-            if !is_one || !(parameter.low..=parameter.high).contains(&values[0]) {
-                let message = match is_one {
-                    true => format!(
-                        "is {} now, which is not from {} to {}",
-                        values[0], parameter.low, parameter.high
-                    ),
-                    false => format!("has several values now: {values:?}"),
-                };
-                return Err(source.error_at(&at, message));
-            }
-            original.push(values[0]);
-        }
-        if !file.admits(&original) {
-            return Err(
-                source.error_at(&Field::root().key("never_falling"), "does not hold of the values of now")
-            );
-        }
-        let plan = TuningPlan { file, source, assets: assets.clone(), original, before };
-        plan.opponent_stays()?;
-        Ok(plan)
+        let original = values_of_now(assets, &source, &file)?;
+        let teams = match file.teams.len() {
+            0 => vec![None],
+            count => (0..count).map(Some).collect(),
+        };
+        let plan = |team| {
+            let before = TreatmentPlan::read(assets, &source, &changes(&file, team, None))?;
+            let (file, source, original) = (file.clone(), source.clone(), original.clone());
+            let plan = TuningPlan { file, team, source, assets: assets.clone(), original, before };
+            plan.team_changes().map(|()| plan)
+        };
+        teams.into_iter().map(plan).collect()
+    }
+
+    /// The name of the team, if the file names teams.
+    pub fn team(&self) -> Option<&str> {
+        self.team.map(|team| self.file.teams[team].name.as_str())
+    }
+
+    /// Where its file is.
+    pub fn path(&self) -> &Path {
+        &self.source.path
     }
 
     /// The text of its file.
@@ -105,7 +107,11 @@ impl TuningPlan {
     pub fn candidate(&self, number: usize, values: &[f64]) -> Result<TuningCandidate, DataError> {
         let treatment = match number {
             0 => self.before.clone(),
-            _ => TreatmentPlan::read(&self.assets, &self.source, &changes(&self.file, Some(values)))?,
+            _ => TreatmentPlan::read(
+                &self.assets,
+                &self.source,
+                &changes(&self.file, self.team, Some(values)),
+            )?,
         };
         Ok(TuningCandidate { number, treatment })
     }
@@ -123,17 +129,16 @@ impl TuningPlan {
         }
     }
 
-    /// Plays matches of candidates on all cores, each a candidate by its place, a seed and a side, and hands over each that is over;
-    /// until it is told to stop.
+    /// Plays matches on all cores, and hands over each that is over; until it is told to stop.
     ///
     /// # Errors
     /// The first one of what takes the rows.
     pub fn play<E>(
         &self,
-        candidates: &[TuningCandidate],
-        matches: Vec<(usize, u64, bool)>,
+        wanted: WantedMatches,
         take: impl FnMut(TuningRow) -> Result<bool, E>,
     ) -> Result<(), E> {
+        let WantedMatches { candidates, matches } = wanted;
         let play = |(place, seed, swapped): (usize, u64, bool)| self.row(&candidates[place], seed, swapped);
         on_all_cores(matches.into_iter(), || (), |(), of| play(of), take)
     }
@@ -154,43 +159,94 @@ impl TuningPlan {
         }
     }
 
-    /// The files with these values in, comments and all, by their names in the asset folder.
+    /// What the team plays by with these values: its strategy and what that is based on, and whatever else is tuned, by their names in
+    /// the asset folder. Where a value is another one, everything else in the file stays as it is, under a line of comment.
     ///
     /// # Errors
     /// If a file cannot be read.
-    pub fn files(&self, values: &[f64]) -> Result<Vec<(String, String)>, DataError> {
-        let places = || {
-            self.file
-                .parameters
-                .iter()
-                .zip(values)
-                .flat_map(|(parameter, value)| parameter.at.iter().map(move |number| (number, *value)))
-        };
-        let names: BTreeSet<&str> = places().map(|(number, _)| number.file.as_str()).collect();
-        let written = |name: &str| {
-            let mut text = self.assets.read(&self.assets.root().join(name))?.text.to_string();
-            for (TunedNumber { path, .. }, value) in places().filter(|(number, _)| number.file == name) {
-                let number = number_at(&text, path).map_err(|message| DataError::new(name, message))?;
-                text = with_number(&text, &number, value);
-            }
-            Ok((name.to_owned(), text))
-        };
-        names.into_iter().map(written).collect()
-    }
-
-    /// Other values would otherwise be worth nothing: both teams would have them.
-    fn opponent_stays(&self) -> Result<(), DataError> {
-        for (place, parameter) in self.file.parameters.iter().enumerate() {
-            let mut values = self.original.clone();
-            values[place] = if values[place] == parameter.low { parameter.high } else { parameter.low };
-            // What the files do not allow is told when it is drawn: it may do with other values beside it.
-            let Ok(candidate) = self.candidate(usize::MAX, &values) else { continue };
-            if candidate.treatment.opponent() != self.before.opponent() {
-                let at = Field::root().key("parameters").index(place);
-                return Err(self.source.error_at(&at, "changes the opponent's strategy, too"));
+    pub fn files(&self, values: &[f64], comment: &str) -> Result<Vec<(String, String)>, DataError> {
+        let parameters = self.file.parameters.iter().zip(values);
+        let places: Vec<(&TunedNumber, f64)> = parameters
+            .flat_map(|(parameter, value)| parameter.at.iter().map(move |number| (number, *value)))
+            .collect();
+        let mut texts = self.strategy_texts();
+        for (TunedNumber { file, .. }, _) in &places {
+            if !texts.contains_key(file) && !Path::new(file).starts_with(AssetKind::Strategy.folder()) {
+                texts
+                    .insert(file.clone(), self.assets.read(&self.assets.root().join(file))?.text.to_string());
             }
         }
-        Ok(())
+        let tuned = |(name, text): (String, String)| {
+            let mut tuned = text.clone();
+            for (TunedNumber { path, .. }, value) in places.iter().filter(|(number, _)| number.file == name) {
+                let number = number_at(&tuned, path).map_err(|message| DataError::new(&name, message))?;
+                tuned = with_number(&tuned, &number, *value);
+            }
+            let tuned = if tuned == text { text } else { format!("{comment}{tuned}") };
+            Ok((name, tuned))
+        };
+        texts.into_iter().map(tuned).collect()
+    }
+
+    /// The files that the team's strategy rests on, by their names in the asset folder.
+    fn strategy_texts(&self) -> BTreeMap<String, String> {
+        let texts = &self.before.home().strategy_texts.files;
+        let name = |path: &Path| match path.strip_prefix(self.assets.root()) {
+            Ok(inside) => inside.to_string_lossy().into_owned(),
+            Err(_) => {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                format!("{}/{name}", AssetKind::Strategy.folder())
+            }
+        };
+        texts.iter().map(|(path, text)| (name(path), text.to_string())).collect()
+    }
+
+    /// Numbers that the team does not play by would be tuned for nothing.
+    fn team_changes(&self) -> Result<(), DataError> {
+        let moved = self.file.parameters.iter().zip(&self.original);
+        let moved: Vec<f64> = moved
+            .map(|(parameter, now)| if *now == parameter.low { parameter.high } else { parameter.low })
+            .collect();
+        // What the files do not allow is told when it is drawn: it may do with other values beside it.
+        let Ok(candidate) = self.candidate(usize::MAX, &moved) else { return Ok(()) };
+        if candidate.treatment.home() != self.before.home() {
+            return Ok(());
+        }
+        let at = match self.team {
+            Some(team) => Field::root().key("teams").index(team),
+            None => Field::root().key("parameters"),
+        };
+        Err(self.source.error_at(&at, "the team plays by none of these numbers"))
+    }
+}
+
+/// What the parameters of a file are now.
+fn values_of_now(assets: &AssetFolder, source: &Source, file: &TuningFile) -> Result<Vec<f64>, DataError> {
+    let mut original = Vec::new();
+    for (place, parameter) in file.parameters.iter().enumerate() {
+        let at = Field::root().key("parameters").index(place);
+        let mut values = Vec::new();
+        for (place, number) in parameter.at.iter().enumerate() {
+            let at = at.key("at").index(place);
+            let value = value(assets, number);
+            values.push(value.map_err(|(field, message)| source.error_at(&at.key(field), message))?);
+        }
+        let TunedParameter { low, high, .. } = parameter;
+        let message = if values.iter().any(|value| *value != values[0]) {
+            format!("has several values now: {values:?}")
+        } else if !(low..=high).contains(&&values[0]) {
+            format!("is {} now, which is not from {low} to {high}", values[0])
+        } else {
+            original.push(values[0]);
+            continue;
+        };
+        return Err(source.error_at(&at, message));
+    }
+    match file.admits(&original) {
+        true => Ok(original),
+        false => {
+            Err(source.error_at(&Field::root().key("never_falling"), "does not hold of the values of now"))
+        }
     }
 }
 
@@ -201,13 +257,42 @@ fn value(assets: &AssetFolder, number: &TunedNumber) -> Result<f64, (&'static st
     number_at(&text, &number.path).map(|number| number.value).map_err(|message| ("path", message))
 }
 
-fn changes(file: &TuningFile, values: Option<&[f64]>) -> Vec<PlacedChange> {
+fn changes(file: &TuningFile, team: Option<usize>, values: Option<&[f64]>) -> Vec<PlacedChange> {
     let mut changes = placed(&Field::root().key("common"), &file.common);
+    if let Some(team) = team {
+        let at = Field::root().key("teams").index(team).key("changes");
+        changes.extend(placed(&at, &file.teams[team].changes));
+    }
     for (place, (parameter, to)) in file.parameters.iter().zip(values.unwrap_or_default()).enumerate() {
         let at = Field::root().key("parameters").index(place).key("at");
         changes.extend(parameter.at.iter().enumerate().map(|(place, TunedNumber { file, path })| {
-            (at.index(place), DesignChange::Number { file: file.clone(), path: path.clone(), to: *to })
+            let (file, path) = (file.clone(), path.clone());
+            (at.index(place), DesignChange::TeamNumber { team: Team::Home, file, path, to: *to })
         }));
     }
     changes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tuned_strategy_has_those_that_it_is_based_on_beside_it_with_the_tuned_numbers() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let plans = TuningPlan::read(&assets, "hammerheads").unwrap();
+        let plan = plans.iter().find(|plan| plan.team() == Some("2000")).unwrap();
+        let mut values = plan.space().original;
+        values[0] = 0.4375;
+        let files = plan.files(&values, "// Fitted.\n").unwrap();
+        let [(own, own_text), (base, base_text)] = &files[..] else { panic!("{files:?}") };
+        assert_eq!(
+            [own.as_str(), base],
+            ["strategies/hammerheads_2000.ron", "strategies/hammerheads_2001.ron"]
+        );
+        let shipped = |name: &str| assets.read(&assets.root().join(name)).unwrap().text;
+        assert_eq!(own_text.as_str(), &*shipped(own));
+        let tuned = shipped(base).replace("standoff: 0.55", "standoff: 0.4375");
+        assert_eq!(*base_text, format!("// Fitted.\n{tuned}"));
+    }
 }

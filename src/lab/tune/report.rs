@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::file::{BetterValue, TuningObjective};
+use super::file::TuningObjective;
 use super::plan::TuningPlan;
 use super::race::RaceEntrant;
 use super::row::KnownMatches;
@@ -18,6 +18,8 @@ use crate::rng::{DEFAULT_SEED, Seed};
 pub struct TuningReport {
     /// What was sought.
     pub name: String,
+    /// The team, if the tuning names several.
+    pub team: Option<String>,
     /// What candidates were judged by.
     pub objective: TuningObjective,
     /// Each parameter.
@@ -58,6 +60,7 @@ impl TuningReport {
         let values = plan.file.parameters.iter().zip(plan.space().original).zip(&winner.values);
         TuningReport {
             name: plan.file.name.clone(),
+            team: plan.team().map(str::to_owned),
             objective: plan.file.objective,
             values: values
                 .map(|((parameter, before), tuned)| TunedValue {
@@ -85,22 +88,14 @@ impl TuningReport {
             format!("; held out, {seeds} seeds: {} of {column}", mean_of(difference))
         });
         let names: Vec<&str> = self.values.iter().map(|value| value.parameter.as_str()).collect();
-        let text = format!("// Fitted by `touchline tune` ({}): {}{held_out}.", self.name, names.join(", "));
+        let of = [self.name.as_str()].into_iter().chain(self.team.as_deref()).collect::<Vec<_>>().join(", ");
+        let text = format!("// Fitted by `touchline tune` ({of}): {}{held_out}.", names.join(", "));
         text.split_whitespace().collect::<Vec<_>>().join(" ") + "\n"
     }
 
     /// As text.
     pub fn document(&self) -> ReportDocument {
         let column = self.objective.metric.column();
-        let most = match self.objective.better {
-            BetterValue::More => "The most",
-            BetterValue::Less => "The least",
-        };
-        let verdict = match self.better {
-            ClaimVerdict::Held => "the tuned values are better",
-            ClaimVerdict::DidNotHold => "the tuned values are worse",
-            ClaimVerdict::CannotBeSaid => "cannot be said: the interval holds 0, or the seeds are too few",
-        };
         let values = self.values.iter().map(|TunedValue { parameter, before, tuned }| {
             vec![parameter.clone(), before.to_string(), tuned.to_string()]
         });
@@ -112,16 +107,34 @@ impl TuningReport {
             Some(vec![name.to_owned(), difference.pairs.to_string(), mean, p])
         });
         let blocks = vec![
-            ReportBlock::Text(format!("{most} of {column}, {} matches.", self.matches)),
+            ReportBlock::Text(format!(
+                "What is sought is {} of {column}; {} matches.",
+                self.objective.better.words(),
+                self.matches
+            )),
             table(["parameter", "before", "tuned"], values.collect()),
             table([&format!("tuned less before, {column}"), "seeds", "mean [95 %]", "p"], compared.collect()),
-            ReportBlock::Text(format!("By the seeds that were held out: {verdict}.")),
+            ReportBlock::Text(format!("By the seeds that were held out: {}.", self.verdict())),
         ];
-        ReportDocument { title: self.name.clone(), blocks }
+        let team = self.team.iter().map(|team| format!(": {team}"));
+        ReportDocument { title: [self.name.clone()].into_iter().chain(team).collect(), blocks }
+    }
+
+    /// Whether the search has come to other values than those of before.
+    pub fn has_changed(&self) -> bool {
+        self.values.iter().any(|value| value.before != value.tuned)
+    }
+
+    fn verdict(&self) -> &'static str {
+        match self.better {
+            ClaimVerdict::Held => "the tuned values are better",
+            ClaimVerdict::DidNotHold => "the tuned values are worse",
+            ClaimVerdict::CannotBeSaid => "cannot be said: the interval holds 0, or the seeds are too few",
+        }
     }
 }
 
-fn mean_of(difference: &PairedDifference) -> MeanWithInterval {
+pub(super) fn mean_of(difference: &PairedDifference) -> MeanWithInterval {
     MeanWithInterval { value: Some(difference.mean), interval: difference.interval }
 }
 

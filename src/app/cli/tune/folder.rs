@@ -9,36 +9,59 @@ use crate::app::whole_file::write_whole;
 use crate::data::{DataError, Source};
 use crate::lab::tune::{KnownMatches, TuningPlan};
 
-/// A folder with the design, `design.ron`, every match, `matches.csv`, a report, `report.md`, and the files with the values that were
-/// found, by their names in the asset folder.
-pub(super) struct TuningFolder(PathBuf);
+/// A folder with the design, `design.ron`, and, for the tuning's one team or in a folder for each of its teams, every match,
+/// `matches.csv`, a report, `report.md`, and the files with the values that were found, by their names in the asset folder.
+pub(super) struct TuningFolder {
+    design: PathBuf,
+    path: PathBuf,
+}
 
 impl TuningFolder {
+    pub fn new(path: PathBuf) -> TuningFolder {
+        TuningFolder { design: path.join("design.ron"), path }
+    }
+
+    /// The part of it that is this team's.
+    pub fn of_team(&self, plan: &TuningPlan) -> TuningFolder {
+        let path = plan.team().map_or_else(|| self.path.clone(), |team| self.path.join(team));
+        TuningFolder { design: self.design.clone(), path }
+    }
+
     /// Makes the folder, or goes on in it: the matches that are there.
     ///
     /// # Errors
     /// If it holds something else than matches of this very tuning, or cannot be written.
-    pub fn begin(path: PathBuf, plan: &TuningPlan) -> Result<(TuningFolder, KnownMatches), CommandError> {
-        let folder = TuningFolder(path);
-        fs::create_dir_all(&folder.0).map_err(CommandError::file(&folder.0))?;
-        let design = folder.0.join("design.ron");
-        if !check_design(&design, plan.text(), "tuning")? {
-            folder.write("design.ron", plan.text().as_bytes())?;
+    pub fn begin(&self, plan: &TuningPlan) -> Result<KnownMatches, CommandError> {
+        fs::create_dir_all(&self.path).map_err(CommandError::file(&self.path))?;
+        if !check_design(&self.design, plan.text(), "tuning")? {
+            write_whole(&self.design, plan.text().as_bytes()).map_err(CommandError::file(&self.design))?;
         }
-        let matches = folder.matches();
-        let known = match matches.exists() {
-            true => KnownMatches::read(&matches, &Source::read(&matches)?.text)?,
-            false => KnownMatches::default(),
-        };
-        Ok((folder, known))
+        Ok(self.known()?)
+    }
+
+    /// The matches that are there.
+    ///
+    /// # Errors
+    /// If they cannot be read.
+    pub fn known(&self) -> Result<KnownMatches, DataError> {
+        let matches = self.matches();
+        match matches.exists() {
+            true => KnownMatches::read(&matches, &Source::read(&matches)?.text),
+            false => Ok(KnownMatches::default()),
+        }
     }
 
     pub fn path(&self) -> &Path {
-        &self.0
+        &self.path
     }
 
-    pub fn matches(&self) -> PathBuf {
-        self.0.join("matches.csv")
+    /// What was asked.
+    pub fn design(&self) -> &Path {
+        &self.design
+    }
+
+    fn matches(&self) -> PathBuf {
+        self.path.join("matches.csv")
     }
 
     /// Writes the table of all matches.
@@ -49,7 +72,7 @@ impl TuningFolder {
 
     /// Writes a file, and the folder that it is in.
     pub fn write(&self, name: &str, content: &[u8]) -> Result<(), CommandError> {
-        let path = self.0.join(name);
+        let path = self.path.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.and_then(|()| write_whole(&path, content)).map_err(CommandError::file(&path))
     }
