@@ -20,7 +20,8 @@ pub fn log_to_stderr() {
 #[cfg(feature = "window")]
 pub fn window_layer(_: &mut bevy::app::App) -> Option<bevy::log::BoxedFmtLayer> {
     // Without a reader there is nobody to be told that a line could not be written.
-    let layer = fmt::layer().with_ansi(stderr_takes_colours()).log_internal_errors(false);
+    let layer = fmt::layer().with_target(false).without_time();
+    let layer = layer.with_ansi(stderr_takes_colours()).log_internal_errors(false);
     Some(Box::new(layer.with_writer(io::stderr)))
 }
 

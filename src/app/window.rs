@@ -57,7 +57,8 @@ pub fn open_window(
 pub(super) fn default_plugins(title: &str) -> PluginGroupBuilder {
     let log = LogPlugin {
         level: Level::ERROR,
-        filter: String::new(),
+        // What a referee box, ChaosManager and robots of other processes do is news to whoever has a terminal beside the window.
+        filter: "touchline::game::net=info".into(),
         fmt_layer: logging::window_layer,
         ..default()
     };

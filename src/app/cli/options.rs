@@ -62,7 +62,7 @@ pub(super) struct HostOptions {
     /// match is announced with them. Without them, those of the match file; if it has none, the first box decides.
     #[arg(long, value_name = "HOME,AWAY", value_parser = team_numbers)]
     team_numbers: Option<[u8; 2]>,
-    /// Give up a match without a window if no referee box is heard within this time.
+    /// Give up a match without a window if no referee box is heard within this time; refused in the window, which a person can leave.
     #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "gamecontroller")]
     wait_for_box: Option<Duration>,
     /// Announce the match in the GameController's format to this address, such as 192.168.1.255:3838 or [::1]:3838.

@@ -10,6 +10,7 @@ use crate::app::cli::options::{HostOptions, MatchOptions, SeedOption};
 use crate::app::cli::recording::RecordOption;
 use crate::app::cli::run::HeadlessRun;
 use crate::app::cli::windows;
+use crate::app::logging::log_to_stderr;
 use crate::app::match_request::MatchRequest;
 use crate::data::{AssetFolder, DataError};
 use crate::game::{Choice, MatchPlan};
@@ -47,6 +48,7 @@ impl PlayCommand {
         }
         let choice = Choice { pilot: self.pilot, ..self.host.choice(&self.options, &self.seed)? };
         let Some(missing) = windows::missing() else {
+            waits_for_its_person(&choice)?;
             MatchPlan::read(assets, &choice)?;
             let wanted = self.chooses(&choice).then_some(MatchRequest::Match(choice));
             return Ok(windows::open_match_window(
@@ -61,6 +63,7 @@ impl PlayCommand {
                 DataError::new("--pilot", format!("nobody can drive without a window: {missing}")).into()
             );
         }
+        log_to_stderr();
         let interrupt = Interrupt::listen();
         let (header, (plan, _)) = ReplayHeader::of(Recorded::Match(choice), assets)?;
         tell(format_args!("{missing}, so the match is played headless"));
@@ -110,6 +113,17 @@ impl PlayCommand {
     }
 }
 
+/// In the window a person sees what is waited for, and ends it.
+fn waits_for_its_person(choice: &Choice) -> Result<(), DataError> {
+    match choice.network.wait_for_box {
+        None => Ok(()),
+        Some(_) => Err(DataError::new(
+            "--wait-for-box",
+            "a match in the window waits for its box until you leave it",
+        )),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use clap::Parser;
@@ -122,11 +136,25 @@ mod tests {
         play: PlayCommand,
     }
 
-    fn chooses(arguments: &[&str]) -> bool {
+    fn choice(arguments: &[&str]) -> (PlayCommand, Choice) {
         let program = PlayArguments::try_parse_from([&["play"], arguments].concat()).expect("good arguments");
         let PlayCommand { options, host, seed, pilot, .. } = &program.play;
         let choice = Choice { pilot: *pilot, ..host.choice(options, seed).expect("a sound choice") };
-        program.play.chooses(&choice)
+        (program.play, choice)
+    }
+
+    fn chooses(arguments: &[&str]) -> bool {
+        let (play, choice) = choice(arguments);
+        play.chooses(&choice)
+    }
+
+    #[test]
+    fn how_long_a_window_waits_for_a_box_is_for_its_person_to_say() {
+        let box_alone = ["--gamecontroller", "127.0.0.1:3838"];
+        assert_eq!(waits_for_its_person(&choice(&box_alone).1), Ok(()));
+        let limited = [&box_alone[..], &["--wait-for-box", "3"]].concat();
+        let refused = waits_for_its_person(&choice(&limited).1).unwrap_err().to_string();
+        assert!(refused.starts_with("--wait-for-box: "), "{refused}");
     }
 
     #[test]

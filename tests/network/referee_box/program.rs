@@ -23,7 +23,10 @@ fn command(arguments: &[&str]) -> Command {
 
 impl Program {
     fn start(arguments: &[&str]) -> Program {
-        let mut command = command(arguments);
+        Program::of(command(arguments))
+    }
+
+    fn of(mut command: Command) -> Program {
         let mut child =
             command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts");
         let errors = BufReader::new(child.stderr.take().expect("it is piped"));
@@ -101,6 +104,19 @@ fn waiting_for_a_box_can_be_limited() {
     let (code, errors, printed) = Program::start(&["--gamecontroller", &at, "--wait-for-box", "0"]).end();
     assert!(code.is_some_and(|code| code != 0) && printed.is_empty(), "{printed}");
     assert_eq!(errors.trim().lines().count(), 1, "{errors}");
+    assert!(errors.contains("no referee box") && errors.contains(&at), "{errors}");
+}
+
+#[test]
+fn a_match_that_is_to_be_played_says_the_same_of_a_box_where_there_is_no_window() {
+    let at = free_addresses(1)[0].to_string();
+    let mut play = Command::new(env!("CARGO_BIN_EXE_touchline"));
+    play.args(["play", "--gamecontroller", &at, "--wait-for-box", "1.5"]);
+    play.current_dir(env!("CARGO_MANIFEST_DIR")).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    let mut program = Program::of(play);
+    assert!(program.line_with("waiting for a referee box").contains("for any teams"));
+    let (code, errors, _) = program.end();
+    assert!(code.is_some_and(|code| code != 0), "{errors}");
     assert!(errors.contains("no referee box") && errors.contains(&at), "{errors}");
 }
 
