@@ -9,6 +9,7 @@ use touchline::geometry::Pose;
 use touchline::ids::{RobotId, Team};
 use touchline::lab::scenario::{RunWatcher, ScenarioPlan, ScenarioRef};
 use touchline::robot::RobotBodies;
+use touchline::world::ball::Ball;
 
 use crate::support::{assets, friendly};
 
@@ -97,8 +98,9 @@ fn whatever_radio_and_strategy_what_is_safe_stays_safe() {
     }
 }
 
-/// Ticks for which a robot is held in another one, so far from it, m; what is broken then.
-fn held(apart: f32, ticks: u32) -> Invariants {
+/// Two robots that stand apart, the ball, and one of their bodies that is held for so many ticks, so far from the away robot, m; what is
+/// broken then.
+fn held(what: Held, apart: f32, ticks: u32) -> Invariants {
     let mut plan = friendly(1, 1.0);
     let robots = [RobotId::new(Team::Home, 1), RobotId::new(Team::Away, 2)];
     let placed = robots.map(|id| {
@@ -119,23 +121,45 @@ fn held(apart: f32, ticks: u32) -> Invariants {
             let found = bodies.iter(world).find(|(id, _)| **id == robot);
             found.map(|(_, bodies)| bodies.unit.0).expect("it has a body")
         });
+        let mut balls = world.query_filtered::<&RapierRigidBodyHandle, With<Ball>>();
+        let moved = match what {
+            Held::Robot => one,
+            Held::Ball => balls.single(world).expect("there is one ball").0,
+        };
         let mut sets = world.query::<&mut RapierRigidBodySet>();
         let mut set = sets.single_mut(world).expect("one physical world");
         let there = set.bodies[other].translation() + Vec2::new(0.0, apart);
-        set.bodies[one].set_translation(there, true);
+        set.bodies[moved].set_translation(there, true);
         game.tick();
     }
     game.world().resource::<Invariants>().clone()
 }
 
+#[derive(Clone, Copy)]
+enum Held {
+    Robot,
+    Ball,
+}
+
+/// The robots that each breach of an invariant is about.
+fn told(invariants: Invariants, invariant: Invariant) -> Vec<Vec<RobotId>> {
+    let found = invariants.breaches.into_iter().filter(|it| it.invariant == invariant);
+    found.map(|breach| breach.robots).collect()
+}
+
 #[test]
 fn a_robot_that_is_held_in_another_one_is_told_and_one_that_stands_beside_it_is_not() {
-    let told = |invariants: Invariants| {
-        let found = invariants.breaches.into_iter().filter(|it| it.invariant == Invariant::RobotsAreSolid);
-        found.map(|breach| breach.robots).collect::<Vec<_>>()
-    };
+    let told = |apart, ticks| told(held(Held::Robot, apart, ticks), Invariant::RobotsAreSolid);
     let [one, other] = [RobotId::new(Team::Home, 1), RobotId::new(Team::Away, 2)];
-    assert_eq!(told(held(0.1, 60)), [vec![one], vec![other]]);
-    assert!(told(held(0.1, 20)).is_empty(), "as short as a push");
-    assert!(told(held(1.0, 60)).is_empty());
+    assert_eq!(told(0.1, 60), [vec![one], vec![other]]);
+    assert!(told(0.1, 20).is_empty(), "as short as a push");
+    assert!(told(1.0, 60).is_empty());
+}
+
+#[test]
+fn a_ball_that_is_held_in_a_robot_is_told_and_one_that_lies_beside_it_is_not() {
+    let told = |apart, ticks| told(held(Held::Ball, apart, ticks), Invariant::BallIsSolid);
+    assert_eq!(told(0.1, 60), [Vec::new()], "it is nobody's");
+    assert!(told(0.1, 20).is_empty(), "as short as a push");
+    assert!(told(1.0, 60).is_empty());
 }

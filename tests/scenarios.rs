@@ -1,5 +1,6 @@
 //! Every shipped scenario passes on all its seeds, and fails without what it depends on.
 
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
@@ -54,6 +55,18 @@ fn every_shipped_scenario_passes_on_ten_seeds() {
     assert!(plans.len() >= 20, "{} scenarios", plans.len());
     assert!(plans.iter().all(|plan| plan.scenario.seeds.len() * plan.scenario.places.len() >= 10));
     assert_all_pass(&play(&plans, |plan| Some(plan.run(None))));
+}
+
+#[test]
+fn a_resting_ball_is_fetched_in_a_scenario_of_every_shipped_strategy() {
+    let assets = assets();
+    let variants = ["fetch_resting_ball", "fetch_resting_ball_four_legged"].iter().flat_map(|name| {
+        let plans = ScenarioPlan::read_all(&assets, &ScenarioRef::named(&assets, name)).expect("it is sound");
+        assert!(plans.iter().all(|plan| plan.scenario.places.len() >= 16), "{name}");
+        plans.into_iter().filter_map(|plan| plan.origin.variant)
+    });
+    let variants: BTreeSet<String> = variants.collect();
+    assert_eq!(variants, assets.names(AssetKind::Strategy).into_iter().collect());
 }
 
 #[test]

@@ -209,6 +209,17 @@ fn check_reads_every_file_as_what_it_is_and_counts_the_kinds() {
 }
 
 #[test]
+fn files_after_a_faulty_one_are_checked_too() {
+    let own = Own::new();
+    let pitch = shipped(AssetKind::Pitch, "four_legged_2005");
+    own.write("sound.ron", &pitch);
+    own.write("faulty.ron", pitch.replacen("name:", "nam:", 1));
+    let (told, code) = own.check(&["faulty.ron", "sound.ron"]);
+    assert!(told.contains("faulty.ron:") && told.contains("\nok    sound.ron\n"), "{told}");
+    assert_eq!(code, Some(2));
+}
+
+#[test]
 fn what_a_comment_or_a_string_says_does_not_make_a_file_a_scenario() {
     let own = Own::new();
     let strategy = shipped(AssetKind::Strategy, "ball_chasers");

@@ -12,7 +12,7 @@ use super::{failing_scenario, program, text, touchline};
 const STRATEGY: &str = "assets/strategies/ball_chasers.ron";
 
 /// Commands that print something.
-const PRINTING: [&[&str]; 7] = [
+const PRINTING: [&[&str]; 9] = [
     &["--help"],
     &["run", "--help"],
     &["--version"],
@@ -20,6 +20,8 @@ const PRINTING: [&[&str]; 7] = [
     &["run", "--minutes", "0.02"],
     &["run", "--minutes", "0.02", "--json"],
     &["play", "swap_figure_8"],
+    &["duel", "--robots", "2v1", "--trials", "4"],
+    &["replay", "tests/golden/person.replay"],
 ];
 
 fn closed_pipe() -> PipeWriter {

@@ -245,6 +245,20 @@ fn what_is_no_packet_about_this_match_is_counted_and_not_followed() {
 }
 
 #[test]
+fn a_match_whose_numbers_are_known_passes_by_a_box_of_other_teams_that_is_heard_first() {
+    let plan = talkative(10.0);
+    let plan = MatchPlan { network: NetworkPlan { team_numbers: Some(TEAMS), ..plan.network }, ..plan };
+    let mut refereed = Refereed::new(plan);
+    let elsewhere = MatchAnnouncement { team_numbers: [5, 6], ..refereed.says.clone() };
+    let other = stranger();
+    other.send_to(&elsewhere.packet().write(), refereed.to).expect("it is sent");
+    refereed.ticks(5);
+    assert_eq!((refereed.heard().news, refereed.heard().teams), (0, 1));
+    refereed.begin();
+    assert_eq!((refereed.phase(), refereed.heard().teams), (Phase::Playing, 1));
+}
+
+#[test]
 fn a_tick_hears_so_many_packets_at_most_and_the_next_ones_the_rest() {
     let mut refereed = Refereed::new(talkative(10.0));
     (0..200).for_each(|_| refereed.send(b"hello"));

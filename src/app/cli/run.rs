@@ -93,10 +93,7 @@ impl HeadlessRun<'_> {
         } else {
             report.print(out)?;
         }
-        if self.strict && game.world().resource::<Invariants>().is_unsafe() {
-            return Ok(Ending::Unsafe);
-        }
-        Ok(Ending::of_run(report.interrupted))
+        Ok(ending(self.strict, report.interrupted, game.world().resource::<Invariants>()))
     }
 
     fn play_on(&mut self, game: &mut Match, started: Instant) -> Result<(), CommandError> {
@@ -121,6 +118,14 @@ impl HeadlessRun<'_> {
         }
         bar.finish_and_clear();
         Ok(())
+    }
+}
+
+/// How a match ends that was played.
+fn ending(strict: bool, interrupted: bool, invariants: &Invariants) -> Ending {
+    match strict && invariants.is_unsafe() {
+        true => Ending::Unsafe,
+        false => Ending::of_run(interrupted),
     }
 }
 
@@ -154,3 +159,22 @@ fn wait_until(then: Instant) {
 
 /// Ticks between two updates of the progress bar.
 const REPORT_EVERY: u64 = 600;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::game::record::{BreachCount, Invariant};
+
+    #[test]
+    fn only_a_strict_run_fails_and_only_by_what_holds_whatever_the_radio_does() {
+        let code = |strict, broken: &[Invariant]| {
+            let mut invariants = Invariants::default();
+            let broken = broken.iter().map(|invariant| ((*invariant, None), BreachCount::default()));
+            invariants.broken.extend(broken);
+            ending(strict, true, &invariants) as u8
+        };
+        assert_eq!(code(true, &[Invariant::OneRobotARole, Invariant::LockIsGivenBack]), 3);
+        assert_eq!(code(false, &[Invariant::LockIsGivenBack]), 130);
+        assert_eq!(code(true, &[Invariant::OneRobotARole]), 130);
+    }
+}

@@ -41,6 +41,24 @@ mod with_windows {
             WindowEnd::Failed => Ending::WindowFailed,
         }
     }
+
+    #[cfg(test)]
+    mod tests {
+        use bevy::prelude::AppExit;
+
+        use super::*;
+        use crate::app::view::time::expectations;
+        use crate::app::window::ended;
+
+        #[test]
+        fn how_a_window_ended_is_an_exit_code() {
+            let code = |exit| ending(ended(exit)) as u8;
+            assert_eq!(code(AppExit::Success), 0);
+            assert_eq!(code(AppExit::from_code(expectations::FAILED)), 1);
+            assert_eq!(code(AppExit::from_code(130)), 130);
+            assert_eq!(code(AppExit::error()), 4);
+        }
+    }
 }
 
 #[cfg(not(feature = "window"))]

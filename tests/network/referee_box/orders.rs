@@ -151,6 +151,16 @@ fn a_robot_that_moved_in_set_stands_where_it_is_and_keeps_what_it_knows() {
     assert!(before.0.distance(after.0) < 0.2 && before.1 == after.1, "{before:?}, {after:?}");
     let moves = driven(&mut refereed, 240);
     assert!(moves[1] < 0.01 && moves.iter().any(|way| *way > 0.1), "others play: {moves:?}");
+    let served = places(&mut refereed).0[1];
+    refereed.say(|says| says.penalties[0].clear());
+    let (state, off) = refereed.orders(robot);
+    assert!(state != RobotState::Penalised && !off, "{state:?}");
+    let again = places(&mut refereed).0[1];
+    assert!(
+        served.0 == robot && served.1.distance(again.1) < 0.05,
+        "it goes on where it stood: {served:?}, {again:?}"
+    );
+    assert!(movers(&mut refereed).contains(&robot));
     let pushed = Penalised { penalty: Penalty::Pushing, ..moved };
     refereed.say(|says| says.penalties[0] = vec![pushed]);
     assert_eq!(refereed.orders(robot), (RobotState::Penalised, true));
@@ -234,4 +244,10 @@ fn nobody_kicks_off_at_a_dropped_ball() {
     let mirrored =
         |from: Team| robots.iter().filter(move |(id, _)| id.team == from).map(|(_, at)| at.x.abs());
     assert!(mirrored(Team::Home).zip(mirrored(Team::Away)).all(|(a, b)| (a - b).abs() < 1e-3), "{robots:?}");
+    refereed.say(|says| says.state = State::Set);
+    refereed.say(|says| says.state = State::Playing);
+    assert_eq!(movers(&mut refereed).len(), 8);
+    let moves = driven(&mut refereed, 300);
+    let (home, away) = moves.split_at(4);
+    assert!([home, away].iter().all(|team| team.iter().any(|way| *way > 0.2)), "both play: {moves:?}");
 }
