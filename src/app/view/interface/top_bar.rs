@@ -13,6 +13,7 @@ use crate::app::view::style::{font, panel_frame};
 use crate::geometry::Attacking;
 use crate::ids::Team;
 use crate::strategy::Strategies;
+use crate::world::gamecontroller::BoxNews;
 use crate::world::referee::{MatchState, Phase};
 
 pub(super) fn plugin(app: &mut App) {
@@ -30,11 +31,12 @@ const TROUBLE: f32 = 0.25;
 /// From the middle to where the teams' names begin.
 const SCORE_HALF: f32 = 52.0;
 
-/// The state of play in words.
-fn phase_text(state: &MatchState, paused: bool) -> &'static str {
+/// The state of play in words; a match may wait for its referee box.
+fn phase_text(state: &MatchState, paused: bool, waits: bool) -> &'static str {
     match state.phase {
         Phase::Finished => "Full time",
         _ if paused => "Paused",
+        _ if waits => "Waiting for a referee box",
         _ if state.restraints.stopped => "Stopped: robots stand still",
         Phase::Initial => "Before the kick-off",
         Phase::Ready => "Ready: robots take their places",
@@ -48,7 +50,7 @@ fn show_top_bar(
     mut area: ResMut<FreeArea>,
     (state, strategies): (Res<MatchState>, Res<Strategies>),
     (announcement, playback, session): (Res<Announcement>, Res<Playback>, Res<Session>),
-    stop: Res<StopReason>,
+    (stop, referee_box): (Res<StopReason>, Option<Res<BoxNews>>),
 ) -> Result {
     if area.0.height() < LEAST_WINDOW {
         return Ok(());
@@ -86,7 +88,10 @@ fn show_top_bar(
         let (text, colour) = match (&stopped, announcement.text()) {
             (Some(stopped), _) => (stopped.as_str(), colours::BREAKPOINT),
             (None, Some(announcement)) => (announcement, colours::CALL),
-            (None, None) => (phase_text(&state, playback.paused), colours::QUIET),
+            (None, None) => {
+                let waits = referee_box.as_ref().is_some_and(|news| news.view.is_none());
+                (phase_text(&state, playback.paused, waits), colours::QUIET)
+            }
         };
         let text = one_line(ui, text, 16.0, room);
         let at = Align2::LEFT_CENTER.anchor_size(pos2(middle + 14.0, second), text.size()).min;
@@ -164,16 +169,18 @@ mod tests {
     use crate::world::referee::RuleBook;
 
     #[test]
-    fn a_finished_match_is_not_paused_and_a_stopped_one_says_so() {
+    fn a_finished_match_is_not_paused_and_one_that_is_stopped_or_waits_says_so() {
         let state = |phase| {
             let mut state = MatchState::new(Team::Home, &RuleBook::default());
             state.phase = phase;
             state
         };
-        assert_eq!(phase_text(&state(Phase::Finished), true), "Full time");
-        assert_eq!(phase_text(&state(Phase::Playing), true), "Paused");
+        assert_eq!(phase_text(&state(Phase::Finished), true, true), "Full time");
+        assert_eq!(phase_text(&state(Phase::Playing), true, true), "Paused");
+        assert_eq!(phase_text(&state(Phase::Initial), false, true), "Waiting for a referee box");
+        assert_eq!(phase_text(&state(Phase::Initial), false, false), "Before the kick-off");
         let mut stopped = state(Phase::Playing);
         stopped.restraints.stopped = true;
-        assert_eq!(phase_text(&stopped, false), "Stopped: robots stand still");
+        assert_eq!(phase_text(&stopped, false, false), "Stopped: robots stand still");
     }
 }
