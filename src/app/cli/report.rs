@@ -13,7 +13,7 @@ use super::tune::reports_in;
 use crate::app::whole_file::{check_writable, write_whole};
 use crate::data::{AssetFolder, AssetKind, DataError, Source};
 use crate::lab::kinds::kind_of;
-use crate::lab::report::{ReportBlock, ReportDocument, ReportedExperiment};
+use crate::lab::report::{ReportBlock, ReportDocument, ReportedExperiment, chapter_head};
 use crate::lab::tune::teams_beside_each_other;
 
 #[derive(Args, Debug)]
@@ -80,14 +80,11 @@ fn is_tuned(folder: &Path) -> Result<bool, DataError> {
 /// The chapter of a tuning.
 fn tuned(assets: &AssetFolder, path: &Path) -> Result<Vec<ReportBlock>, DataError> {
     let (plan, reports) = reports_in(assets, path)?;
-    let command = command("tune", shipped_name(assets, AssetKind::Tuning, plan.text()), path, "");
-    let mut blocks = vec![ReportBlock::Chapter(plan.file.name.clone())];
-    let description = Some(&plan.file.description).filter(|description| !description.is_empty());
-    blocks.extend(description.cloned().map(ReportBlock::Text));
-    blocks.push(ReportBlock::Text(
-        "What plays the matches again, or goes on with those that are missing:".into(),
-    ));
-    blocks.push(ReportBlock::Code(command));
+    let command = command(("tune", "tuned"), shipped_name(assets, AssetKind::Tuning, plan.text()), path, "");
+    let matches = reports.iter().map(|report| report.matches).sum::<usize>();
+    let facts =
+        vec![format!("{} teams, {matches} matches; Touchline {}.", reports.len(), env!("CARGO_PKG_VERSION"))];
+    let mut blocks = chapter_head(&plan.file.name, &plan.file.description, facts, &command);
     blocks.extend(teams_beside_each_other(&plan, &reports));
     Ok(blocks)
 }
@@ -102,14 +99,17 @@ fn reported(assets: &AssetFolder, path: &Path) -> Result<ReportedExperiment, Dat
     let last = rows.iter().map(|row| row.key.seed - plan.file.blocks.first + 1).max().unwrap_or_default();
     let is_part = last < plan.file.blocks.number.into() && plan.file.until.is_none();
     let seeds = if is_part { format!(" --seeds {last}") } else { String::new() };
-    let command =
-        command("experiment", shipped_name(assets, AssetKind::Experiment, &plan.text), path, &seeds);
+    let command = command(
+        ("experiment", "results"),
+        shipped_name(assets, AssetKind::Experiment, &plan.text),
+        path,
+        &seeds,
+    );
     Ok(ReportedExperiment { plan, rows, command })
 }
 
-/// What plays what is in a folder again, by the name of the asset if there is one.
-fn command(command: &str, name: Option<String>, folder: &Path, options: &str) -> String {
-    let ending = if command == "tune" { "tuned" } else { "results" };
+/// What plays what is in a folder again, by the name of the asset if there is one; `ending` is that of the command's folders.
+fn command((command, ending): (&str, &str), name: Option<String>, folder: &Path, options: &str) -> String {
     let design = name.clone().unwrap_or_else(|| quoted(&folder.join("design.ron")));
     let usual = name.map(|name| folder_beside(&name, ending));
     let out = match usual {

@@ -10,21 +10,27 @@ use super::overview::claim_table;
 /// The chapter of an experiment.
 pub(super) fn blocks(of: &Evaluated) -> Vec<ReportBlock> {
     let file = &of.experiment.file;
-    let mut blocks = vec![ReportBlock::Chapter(file.name.clone())];
-    if !file.description.is_empty() {
-        blocks.push(ReportBlock::Text(file.description.clone()));
-    }
-    blocks.extend([
-        ReportBlock::Items(what_was_played(of)),
-        ReportBlock::Text("What plays these matches again, or goes on with those that are missing:".into()),
-        ReportBlock::Code(of.command.to_owned()),
-        ReportBlock::Table(treatments(of)),
-    ]);
+    let mut blocks = chapter_head(&file.name, &file.description, what_was_played(of), of.command);
+    blocks.push(ReportBlock::Table(treatments(of)));
     if !file.claims.is_empty() {
         blocks.push(ReportBlock::Heading("Claims".into()));
         blocks.push(ReportBlock::Table(claim_table(&[of])));
     }
     blocks.extend(file.metrics.iter().flat_map(|metric| figure_part::blocks(of, *metric)));
+    blocks
+}
+
+/// How a chapter begins: its title and description, facts of what was played, a line each, and the command that plays it again.
+pub fn chapter_head(name: &str, description: &str, facts: Vec<String>, command: &str) -> Vec<ReportBlock> {
+    let mut blocks = vec![ReportBlock::Chapter(name.to_owned())];
+    if !description.is_empty() {
+        blocks.push(ReportBlock::Text(description.to_owned()));
+    }
+    blocks.extend([
+        ReportBlock::Items(facts),
+        ReportBlock::Text("What plays these matches again, or goes on with those that are missing:".into()),
+        ReportBlock::Code(command.to_owned()),
+    ]);
     blocks
 }
 

@@ -14,6 +14,7 @@ mod metric_title;
 mod overview;
 mod plot;
 
+pub use chapter::chapter_head;
 pub use document::{ReportBlock, ReportDocument, ReportPlot, ReportTable};
 use evaluated::Evaluated;
 pub use evaluated::ReportedExperiment;

@@ -36,7 +36,8 @@ pub fn search<E: From<DataError>>(
     })?;
     let before = RaceEntrant { number: 0, values: plan.space().original, scores: Vec::new() };
     let held_out: Vec<u64> = file.held_out.seeds().collect();
-    stage.scores(&[before, winner.clone()], &held_out)?;
+    let judged = if winner.number == before.number { vec![before] } else { vec![before, winner.clone()] };
+    stage.scores(&judged, &held_out)?;
     Ok(winner)
 }
 
@@ -69,13 +70,8 @@ impl<P> Stage<'_, P> {
     }
 
     fn wanted(&mut self, entrants: &[RaceEntrant], seeds: &[u64]) -> Result<WantedMatches, DataError> {
-        // A winner that is as before comes twice.
-        let is_first = |(place, entrant): &(usize, &RaceEntrant)| {
-            entrants[..*place].iter().all(|other| other.number != entrant.number)
-        };
-        let entrants = entrants.iter().enumerate().filter(is_first);
         let candidates =
-            entrants.map(|(_, entrant)| self.candidate(entrant)).collect::<Result<Vec<_>, _>>()?;
+            entrants.iter().map(|entrant| self.candidate(entrant)).collect::<Result<Vec<_>, _>>()?;
         let mut matches = Vec::new();
         for (place, candidate) in candidates.iter().enumerate() {
             for (seed, swapped) in seeds.iter().flat_map(|seed| [(*seed, false), (*seed, true)]) {
