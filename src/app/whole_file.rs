@@ -24,7 +24,8 @@ pub(super) fn check_writable(path: &Path) -> io::Result<()> {
 pub(super) fn write_whole(path: &Path, content: &[u8]) -> io::Result<()> {
     let Destination::File { path, known } = Destination::of(path)? else { return fs::write(path, content) };
     let mut draft = draft_beside(&path)?;
-    draft.write_all(content)?;
+    // By way of the draft itself an error would name it, which is gone then.
+    draft.as_file_mut().write_all(content)?;
     if let Some(known) = known {
         draft.as_file().set_permissions(known.permissions())?;
     }

@@ -10,7 +10,7 @@ use super::where_there_is_no_display;
 use crate::support::strategy_text;
 
 /// Starts the program. The tests may run shielded from Ctrl-C, which children inherit.
-fn start(arguments: &[&str]) -> Child {
+pub(super) fn start(arguments: &[&str]) -> Child {
     let mut command = if cfg!(target_os = "linux") {
         let mut command = Command::new("env");
         command.args(["--default-signal=INT", env!("CARGO_BIN_EXE_touchline")]);
@@ -23,9 +23,18 @@ fn start(arguments: &[&str]) -> Child {
 }
 
 /// Ends the program as Ctrl-C does and returns its exit code.
-fn interrupt(process: &mut Child) {
+pub(super) fn interrupt(process: &mut Child) {
     let status = Command::new("kill").args(["-INT", &process.id().to_string()]).status();
     assert!(status.expect("every Unix can kill").success());
+}
+
+/// Whether Ctrl-C does not end a process at once any more, since it has a handler of its own.
+#[cfg(target_os = "linux")]
+pub(super) fn listens_to_ctrl_c(process: &Child) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", process.id())).unwrap_or_default();
+    let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap_or_default();
+    // SIGINT is the second signal.
+    u64::from_str_radix(caught.trim(), 16).is_ok_and(|caught| caught & 0b10 != 0)
 }
 
 fn rest(mut from: impl Read) -> String {

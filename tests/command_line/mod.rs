@@ -2,6 +2,7 @@
 
 mod coverage;
 mod duel;
+pub(crate) mod every_command;
 mod experiment;
 mod export;
 mod fit_eyes;

@@ -1,47 +1,15 @@
 //! Where output goes: closed pipes, full disks, files and terminals.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, PipeWriter};
+use std::io::{BufRead, BufReader};
 use std::net::{Ipv4Addr, UdpSocket};
 use std::process::Stdio;
 use std::sync::mpsc;
 use std::time::Duration;
 
+use super::every_command::closed_pipe;
 use super::{failing_scenario, program, text, touchline};
 
 const STRATEGY: &str = "assets/strategies/ball_chasers.ron";
-
-/// Commands that print something.
-const PRINTING: [&[&str]; 9] = [
-    &["--help"],
-    &["run", "--help"],
-    &["--version"],
-    &["check", STRATEGY],
-    &["run", "--minutes", "0.02"],
-    &["run", "--minutes", "0.02", "--json"],
-    &["play", "swap_figure_8"],
-    &["duel", "--robots", "2v1", "--trials", "4"],
-    &["replay", "tests/golden/person.replay"],
-];
-
-fn closed_pipe() -> PipeWriter {
-    let (reader, writer) = io::pipe().expect("the system has pipes");
-    drop(reader);
-    writer
-}
-
-#[test]
-fn a_closed_pipe_ends_every_command_quietly() {
-    for call in PRINTING {
-        let mut command = program(call);
-        let output =
-            command.stdout(closed_pipe()).stderr(Stdio::piped()).output().expect("the program starts");
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(141), "{call:?}: {message}");
-        let is_news = |line: &&str| !line.ends_with("is played headless");
-        assert_eq!(message.lines().filter(is_news).count(), 0, "{call:?}: {message}");
-    }
-}
 
 #[test]
 fn who_does_not_listen_to_errors_still_gets_the_exit_code() {
@@ -57,16 +25,7 @@ fn who_does_not_listen_to_errors_still_gets_the_exit_code() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_full_disk_is_one_line_and_an_exit_code_of_its_own() {
-    for call in PRINTING {
-        let full = File::options().write(true).open("/dev/full").expect("Linux has it");
-        let output = program(call).stdout(full).stderr(Stdio::piped()).output().expect("the program starts");
-        let message = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(5), "{call:?}: {message}");
-        let lines: Vec<&str> = message.lines().filter(|line| !line.ends_with("is played headless")).collect();
-        assert_eq!(lines.len(), 1, "{call:?}: {message}");
-        assert!(lines[0].contains("No space left"), "{call:?}: {message}");
-    }
+fn a_device_that_is_full_is_named_after_the_rest_was_said() {
     let output = touchline(&["check", STRATEGY, "--junit", "/dev/full"]);
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(5), "{message}");
@@ -135,4 +94,44 @@ fn log_lines_have_no_colours_where_no_terminal_reads() {
     process.kill().and_then(|()| process.wait()).expect("it is ours");
     reader.join().expect("it reads to the end");
     assert!(line.contains("WARN") && !line.contains('\u{1b}'), "{line:?}");
+}
+
+/// What the program says on a terminal of a kind.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(arguments: &str, variable: (&str, &str)) -> String {
+    let call = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_touchline"));
+    let mut script = std::process::Command::new("script");
+    script.args(["--quiet", "--return", "--command", &call, "/dev/null"]);
+    script.current_dir(env!("CARGO_MANIFEST_DIR")).stdin(Stdio::null());
+    script.env_remove("NO_COLOR").env("TERM", "xterm").env(variable.0, variable.1);
+    text(&script.output().expect("Linux has it").stdout)
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_gets_colours_unless_it_has_none_or_nobody_wants_them() {
+    let is_coloured = |line: &str| line.contains("\u{1b}[3");
+    for call in ["run --minutes 0.02 --announce 127.0.0.1:0", "run --no-such-option"] {
+        let first = |variable| on_a_terminal(call, variable).lines().next().unwrap_or_default().to_owned();
+        assert!(is_coloured(&first(("LANG", "C"))), "{call}");
+        for variable in [("NO_COLOR", "1"), ("TERM", "dumb")] {
+            let line = first(variable);
+            assert!(!line.is_empty() && !is_coloured(&line), "{call}, {variable:?}: {line:?}");
+        }
+    }
+    let moves = |variable| on_a_terminal("duel --trials 2", variable).contains('\u{1b}');
+    assert!(
+        moves(("LANG", "C")) && !moves(("TERM", "dumb")),
+        "a bar is drawn where a line can be drawn again"
+    );
+}
+
+#[test]
+fn that_a_match_cannot_be_announced_is_said_once_and_it_is_played() {
+    let output = touchline(&["run", "--minutes", "0.1", "--announce", "127.0.0.1:0"]);
+    let (said, told) = (text(&output.stdout), text(&output.stderr));
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    assert_eq!(told.lines().count(), 1, "{told}");
+    assert!(told.contains("the match cannot be announced: cannot send to 127.0.0.1:0"), "{told}");
+    assert!(said.contains("digest"), "{said}");
 }

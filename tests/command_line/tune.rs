@@ -8,7 +8,7 @@ use super::{text, touchline};
 use crate::support::assets;
 
 /// Matches of six seconds a half.
-const TUNING: &str = r#"(
+pub(super) const TUNING: &str = r#"(
     name: "How far to keep",
     common: [HalfMinutes(0.1), Home("hammerheads_2001"), Away("ball_chasers")],
     parameters: [

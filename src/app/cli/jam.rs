@@ -4,11 +4,11 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use indicatif::ProgressBar;
 
 use super::ending::{CommandError, Ending, print_json};
 use super::interrupt::Interrupt;
 use super::options::{self, SeedOption, number_of};
+use super::progress::progress_bar;
 use super::recording;
 use crate::app::whole_file;
 use crate::comms::radio::Act;
@@ -75,7 +75,7 @@ impl JamCommand {
             whole_file::check_writable(path).map_err(CommandError::file(path))?;
         }
         let interrupt = Interrupt::listen();
-        let bar = ProgressBar::new_spinner().with_message("matches");
+        let bar = progress_bar(0, "{spinner} {msg}");
         let report = plan.run(|played| {
             bar.set_message(format!("{played} matches"));
             bar.tick();

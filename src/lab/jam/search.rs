@@ -59,6 +59,9 @@ pub(super) struct JamSearch {
     pub exhausted: Option<usize>,
 }
 
+/// Matches that are played before somebody is asked whether to go on.
+const AT_A_TIME: usize = 32;
+
 /// Tries sets of up to `budget` packets. Of each size, at most `beam` sets are led on to the next: those that came nearest to harm.
 pub(super) fn search(
     budget: usize,
@@ -74,22 +77,30 @@ pub(super) fn search(
     let mut level = vec![(Vec::new(), whole)];
     for size in 1..=budget {
         let mut next: Vec<(Vec<Interfered>, Jammed)> = Vec::new();
-        for (set, jammed) in &level {
-            let larger: Vec<Vec<Interfered>> =
-                jammed.packets.iter().map(|packet| set.iter().copied().chain([*packet]).collect()).collect();
-            played += larger.len();
-            next.par_extend(larger.into_par_iter().map(|set| {
+        let larger = |set: &[Interfered], packet: Interfered| [set, &[packet]].concat();
+        let mut larger =
+            level.iter().flat_map(|(set, jammed)| jammed.packets.iter().map(|packet| larger(set, *packet)));
+        let is_stopped = loop {
+            let sets: Vec<Vec<Interfered>> = larger.by_ref().take(AT_A_TIME).collect();
+            if sets.is_empty() {
+                break false;
+            }
+            played += sets.len();
+            next.par_extend(sets.into_par_iter().map(|set| {
                 let jammed = play(&set);
                 (set, jammed)
             }));
             if !goes_on(played) {
-                return JamSearch { end: JamEnd::Unharmed, played, exhausted: Some(exhausted) };
+                break true;
             }
-        }
+        };
         let harmed = next.iter().filter_map(|(set, jammed)| Some((jammed.harmed?, set)));
         if let Some((tick, set)) = harmed.min_by_key(|(tick, _)| *tick) {
             let end = JamEnd::Harmed { packets: set.clone(), tick };
             return JamSearch { end, played, exhausted: Some(exhausted) };
+        }
+        if is_stopped {
+            break;
         }
         exhausted = if is_whole { size } else { exhausted };
         // Equal ones stay in the order in which they were found.
@@ -136,6 +147,24 @@ mod tests {
         let narrow = search(3, 4, |set| play(set, &[1, 2, 8]), |_| true);
         assert!(matches!(narrow.end, JamEnd::Harmed { .. }), "what comes near is led on");
         assert_eq!(narrow.exhausted, Some(1), "of pairs only some were tried");
+    }
+
+    #[test]
+    fn who_stops_it_waits_for_few_matches_and_gets_what_harm_was_found_by_then() {
+        let mut asked = Vec::new();
+        let found = search(
+            3,
+            1000,
+            |set| play(set, &[0, 1]),
+            |played| {
+                asked.push(played);
+                played < 12
+            },
+        );
+        assert_eq!((found.played, found.exhausted, asked), (43, Some(1), vec![11, 43]));
+        assert!(matches!(found.end, JamEnd::Harmed { .. }), "{found:?}");
+        let unharmed = search(3, 1000, |set| play(set, &[7, 8, 9]), |played| played < 12);
+        assert_eq!((unharmed.end, unharmed.played, unharmed.exhausted), (JamEnd::Unharmed, 43, Some(1)));
     }
 
     #[test]
