@@ -83,6 +83,8 @@ impl Bound {
     pub const BYTES: Bound = Bound::up_to(1e9, " bytes");
     /// How often something happened, or for how many seconds in all.
     pub const COUNT: Bound = Bound::up_to(1e15, "");
+    /// Whatever a number of a file is about: no other bound is wider, but for counts.
+    pub const ANY: Bound = Bound::up_to(1e9, "").signed();
     /// On a screen.
     pub const POINTS: Bound = Bound::up_to(100_000.0, " points");
 

@@ -58,7 +58,7 @@ fn shipped(kind: AssetKind, name: &str) -> String {
 
 #[test]
 fn a_name_given_twice_is_told_at_its_second_place_in_every_kind_of_file() {
-    use AssetKind::{Addresses, Match, Pitch, Radio, Robot, Scenario, Sensing};
+    use AssetKind::{Addresses, Camera, Experiment, Match, Pitch, Radio, Robot, Scenario, Sensing, Tuning};
     let (strategy, swap) =
         ((AssetKind::Strategy, "hammerheads_2001"), (Scenario, "swap_with_radio_that_fails_later"));
     let own = Own::new();
@@ -96,6 +96,10 @@ fn a_name_given_twice_is_told_at_its_second_place_in_every_kind_of_file() {
         ((Pitch, "middle_size_2001"), "length:", "length: 1", "length"),
         ((Sensing, "cye_2001"), "frame_hz:", "frame_hz: 1", "eyes.Real.camera.frame_hz"),
         ((Radio, "good"), "jitter:", "jitter: 0", "latency.jitter"),
+        ((Camera, "cye_2001"), "Red: (y", "Red: (y: (1, 2), u: (1, 2), v: (1, 2))", "colours.Red"),
+        ((Camera, "cye_2001"), "tilt:", "tilt: 1", "optics.tilt"),
+        ((Experiment, "booking"), "blocks:", "blocks: (first: 1, number: 1)", "blocks"),
+        ((Tuning, "booking"), "candidates:", "candidates: 2", "candidates"),
         ((Addresses, ""), "\"home 0\"", "\"home 0\": \"127.0.0.1:7401\"", "[\"home 0\"]"),
     ] {
         let text =

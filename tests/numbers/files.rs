@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use touchline::data::{AssetFolder, AssetKind, DataError};
 use touchline::game::{Choice, Match, MatchPlan};
+use touchline::lab::kinds;
 use touchline::lab::scenario::ScenarioPlan;
 use touchline::ops;
 
@@ -155,6 +156,38 @@ fn every_number_of_every_kind_of_file_has_a_bound() {
                     .any(|word| error.contains(word));
                 assert!(is_told && error.lines().count() == 1, "{error}");
                 assert!(error.starts_with(&*copied.path().to_string_lossy()), "{error}");
+            }
+        }
+    }
+}
+
+/// Files that are no match's: a camera, experiments and tunings, and eyes that are calibrated cameras.
+#[test]
+fn every_number_of_a_camera_an_experiment_or_a_tuning_has_a_bound() {
+    use AssetKind::{Camera, Experiment, Sensing, Tuning};
+    for (kind, name) in [
+        (Camera, "aibo_ers7"),
+        (Camera, "cye_2001"),
+        (Sensing, "cye_2001_images"),
+        (Experiment, "booking_and_contact"),
+        (Experiment, "hammerheads"),
+        (Experiment, "take_over"),
+        (Tuning, "hammerheads_avoidance"),
+        (Tuning, "booking"),
+    ] {
+        let copied = Copied::new((kind.folder(), name, ""));
+        let there = AssetFolder::new(copied.folder.path());
+        for place in numbers(&copied.text) {
+            for number in ["1e30", "-1e30", "NaN"] {
+                let changed = format!("{}{number}{}", &copied.text[..place.start], &copied.text[place.end..]);
+                fs::write(copied.path(), changed).expect("the file is written");
+                let Err(error) = kinds::read(&there, kind, &copied.path().into()) else {
+                    panic!("{name} was read with {number} for {}", &copied.text[place.start - 30..place.end]);
+                };
+                let line = copied.text[..place.start].matches('\n').count() + 1;
+                let at = format!("{}:{line}:", copied.path().display());
+                let error = error.to_string();
+                assert!(error.starts_with(&at) && error.lines().count() == 1, "{number}: {error}");
             }
         }
     }

@@ -275,10 +275,7 @@ impl Validate for ExperimentFile {
         check_count("factors", "the number of treatments", self.treatments(), 1..=TREATMENTS)?;
         for (place, claim) in self.claims.iter().enumerate() {
             if let ClaimedDifference::Within(margin) = claim.is {
-                let at = format!("claims.{place}.is.Within");
-                ensure(margin > 0.0 && margin.is_finite(), &at, || {
-                    format!("must be positive, not {margin}")
-                })?;
+                check_width(&format!("claims.{place}.is.Within"), margin)?;
             }
             for (field, levels) in [("of", &claim.of), ("than", &claim.than)] {
                 let at = format!("claims.{place}.{field}");
@@ -297,8 +294,14 @@ impl Validate for UntilRule {
         ensure((0.5..1.0).contains(confidence), "Width.confidence", || {
             format!("must be from 0.5 to less than 1, not {confidence}")
         })?;
-        ensure(*width > 0.0 && width.is_finite(), "Width.width", || format!("must be positive, not {width}"))
+        check_width("Width.width", *width)
     }
+}
+
+/// Checks a width or a margin, in the unit of a metric.
+fn check_width(field: &str, width: f64) -> Result<(), Fault> {
+    ensure(width > 0.0, field, || format!("must be positive, not {width:?}"))?;
+    Bound::ANY.check(field, width as f32)
 }
 
 impl Validate for Factor {
@@ -320,8 +323,9 @@ impl Validate for Factor {
                 Ok(())
             }
             FactorLevels::Values { values, .. } => {
-                let odd = values.iter().position(|value| !value.is_finite());
-                ensure(odd.is_none(), "levels.Values.values", || "must be finite".into())
+                values.iter().enumerate().try_for_each(|(place, value)| {
+                    Bound::ANY.check(&format!("levels.Values.values.{place}"), *value as f32)
+                })
             }
         }
     }
@@ -332,13 +336,10 @@ pub(in crate::lab) fn check_changes(changes: &[DesignChange]) -> Result<(), Faul
     for (place, change) in changes.iter().enumerate() {
         let checked = match change {
             DesignChange::HalfMinutes(minutes) => Bound::MINUTES.check("HalfMinutes", *minutes),
-            DesignChange::Number { to, .. } => {
-                ensure(to.is_finite(), "Number.to", || "must be finite".into())
-            }
-            DesignChange::TeamNumber { file, to, .. } => {
-                ensure(to.is_finite(), "TeamNumber.to", || "must be finite".into())
-                    .and_then(|()| check_is_a_teams("TeamNumber.file", file))
-            }
+            DesignChange::Number { to, .. } => Bound::ANY.check("Number.to", *to as f32),
+            DesignChange::TeamNumber { file, to, .. } => Bound::ANY
+                .check("TeamNumber.to", *to as f32)
+                .and_then(|()| check_is_a_teams("TeamNumber.file", file)),
             _ => Ok(()),
         };
         checked.map_err(|fault| fault.inside(&Field::root().index(place)))?;

@@ -9,8 +9,8 @@ use super::file::{DesignChange, PlacedChange};
 use super::metric::{MatchFigures, Metric};
 use super::row::MatchResult;
 use crate::data::{
-    AssetFolder, AssetKind, AssetTexts, DataError, Field, NumberToken, Segment, Source, no_such, numbers,
-    with_number,
+    AssetFolder, AssetKind, AssetTexts, DataError, Field, NumberToken, ReadTexts, Segment, Source, no_such,
+    numbers, with_number,
 };
 use crate::game::requests::Request;
 use crate::game::{Choice, Match, MatchPlan, TeamPlan, file_named};
@@ -39,15 +39,8 @@ impl TreatmentPlan {
         design: &Source,
         changes: &[PlacedChange],
     ) -> Result<TreatmentPlan, DataError> {
-        let choice = choice(assets, design, changes)?;
-        let changed =
-            |whose| changed_texts(assets, design, changes, whose).map(|texts| assets.with_texts(texts));
-        let (assets, notes) = changed(None)?.noting();
-        let mut plan = MatchPlan::read(&assets, &choice)?;
-        for team in Team::BOTH.into_iter().filter(|team| has_own_numbers(*team, changes)) {
-            let own = MatchPlan::read(&changed(Some(team))?, &choice)?;
-            plan.teams[team.index()] = own.teams[team.index()].clone();
-        }
+        let read = match_plan(assets, design, changes);
+        let (mut plan, assets, notes) = read.map_err(|fault| blame(assets, design, changes, fault))?;
         let mut script = Vec::new();
         for (at, change) in changes {
             match change {
@@ -94,6 +87,43 @@ fn play(plan: &MatchPlan, swapped: bool) -> MatchResult {
     MatchResult { digest: record.digest, seconds: clock.now(), played: record.played, values }
 }
 
+/// The match with its files changed, and the folder with these files in it.
+fn match_plan(
+    assets: &AssetFolder,
+    design: &Source,
+    changes: &[PlacedChange],
+) -> Result<(MatchPlan, AssetFolder, ReadTexts), DataError> {
+    let choice = choice(assets, design, changes)?;
+    let changed = |whose| changed_texts(assets, design, changes, whose).map(|texts| assets.with_texts(texts));
+    let (shared, notes) = changed(None)?.noting();
+    let mut plan = MatchPlan::read(&shared, &choice)?;
+    for team in Team::BOTH.into_iter().filter(|team| has_own_numbers(*team, changes)) {
+        let own = MatchPlan::read(&changed(Some(team))?, &choice)?;
+        plan.teams[team.index()] = own.teams[team.index()].clone();
+    }
+    Ok((plan, shared, notes))
+}
+
+/// A fault that is not there without something that the design puts in a file is told at its place in the design.
+fn blame(assets: &AssetFolder, design: &Source, changes: &[PlacedChange], fault: DataError) -> DataError {
+    let put = changes.iter().enumerate().rev().find_map(|(place, (at, change))| {
+        let key = match change {
+            DesignChange::Number { .. } if is_values(at) => "values",
+            DesignChange::Number { .. } | DesignChange::TeamNumber { .. } => "to",
+            DesignChange::Instead { .. } => "read",
+            _ => return None,
+        };
+        let others = [&changes[..place], &changes[place + 1..]].concat();
+        let without = match_plan(assets, design, &others).err();
+        (without.as_ref() != Some(&fault)).then(|| fields_of(at, change).key(key))
+    });
+    match put {
+        // What is wrong in the design itself has its place already.
+        Some(at) if fault.path != design.path => design.error_at(&at, fault.to_string()),
+        _ => fault,
+    }
+}
+
 /// Whether a number of a file is another for this team alone.
 fn has_own_numbers(team: Team, changes: &[PlacedChange]) -> bool {
     changes
@@ -110,13 +140,7 @@ fn changed_texts(
 ) -> Result<AssetTexts, DataError> {
     let mut texts = AssetTexts::new();
     for (at, change) in changes {
-        // Where a number or a file is named: in the change itself, but for the values of a factor.
-        let at = match change {
-            DesignChange::Number { .. } if !is_values(at) => &at.key("Number"),
-            DesignChange::TeamNumber { .. } => &at.key("TeamNumber"),
-            DesignChange::Instead { .. } => &at.key("Instead"),
-            _ => at,
-        };
+        let at = fields_of(at, change);
         let text_of = |texts: &AssetTexts, field: &str, name: &str| {
             let path = assets.root().join(name);
             let text = match texts.get(&path) {
@@ -146,6 +170,16 @@ fn changed_texts(
         }
     }
     Ok(texts)
+}
+
+/// Where a change names its number or its file: in the change itself, but for the values of a factor.
+fn fields_of(at: &Field, change: &DesignChange) -> Field {
+    match change {
+        DesignChange::Number { .. } if !is_values(at) => at.key("Number"),
+        DesignChange::TeamNumber { .. } => at.key("TeamNumber"),
+        DesignChange::Instead { .. } => at.key("Instead"),
+        _ => at.clone(),
+    }
 }
 
 /// The number of a text with this path.
@@ -230,6 +264,31 @@ mod tests {
     fn read(changes: &[DesignChange]) -> TreatmentPlan {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         TreatmentPlan::read(&assets, &Source::new("a.ron", ""), &placed(&Field::root(), changes)).unwrap()
+    }
+
+    #[test]
+    fn what_a_design_puts_in_a_file_is_told_at_its_place_in_the_design() {
+        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
+        let design = Source::new(
+            "a.ron",
+            r#"[
+    Home("hammerheads_2001"),
+    Number(file: "radios/good.ron", path: "loss.Independent[0]", to: 7),
+    TeamNumber(team: Home, file: "strategies/hammerheads_2001.ron", path: "schemas.dock.DockBehind.standoff", to: -7),
+    Instead(of: "pitches/middle_size_2001.ron", read: "radios/good.ron"),
+]"#,
+        );
+        let changes: Vec<DesignChange> = design.parse().unwrap();
+        for (place, told) in [
+            (1, "a.ron:3:70: [1].Number.to: "),
+            (2, "a.ron:4:115: [2].TeamNumber.to: "),
+            (3, "a.ron:5:55: [3].Instead.read: "),
+        ] {
+            let changes = placed(&Field::root(), &changes);
+            let one = [changes[0].clone(), changes[place].clone()];
+            let fault = TreatmentPlan::read(&assets, &design, &one).unwrap_err().to_string();
+            assert!(fault.starts_with(told) && fault.contains("/assets/"), "{fault}");
+        }
     }
 
     #[test]

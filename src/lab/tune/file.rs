@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::data::{Fault, Field, Validate, check_count, ensure};
+use crate::data::{Bound, Fault, Field, Validate, check_count, ensure};
 use crate::lab::experiment::{
     ClaimedDifference, DesignChange, Metric, NamedLevel, SeedBlocks, check_changes, check_is_a_teams,
 };
@@ -170,10 +170,10 @@ impl Validate for TunedParameter {
             check_is_a_teams("file", &number.file)
                 .map_err(|fault| fault.inside(&Field::root().key("at").index(place)))?;
         }
-        ensure(self.low.is_finite(), "low", || "must be finite".into())?;
-        ensure(self.high.is_finite() && self.low < self.high, "high", || {
-            format!("must be more than {}", self.low)
-        })
+        for (field, end) in [("low", self.low), ("high", self.high)] {
+            Bound::ANY.check(field, end as f32)?;
+        }
+        ensure(self.low < self.high, "high", || format!("must be more than {}", self.low))
     }
 }
 
