@@ -236,6 +236,44 @@ fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
 }
 
 #[test]
+fn a_robot_of_another_version_of_the_program_is_refused_on_either_side() {
+    let (mut game, plan) = open(&with_remote(talkative(0.1), &[HOME_1]));
+    let host = plan.directory().address_of(HOST).expect("it is there");
+    let robot = UdpSocket::bind(address_of(&plan, HOME_1)).expect("it was free");
+    let introduction = loop {
+        net::poll_greeting(game.world_mut());
+        if let Some(message) = next_message(&robot) {
+            break Introduction::unserialise(message.data_type, &message.data)
+                .expect("the match is not played");
+        }
+    };
+    let older = Introduction { version: "0.0.1".into(), ..introduction.clone() };
+    let (here, there) = (&introduction.version, introduction.protocol);
+    let differs =
+        format!("the version differs: here {here} (protocol {there}), there 0.0.1 (protocol {there})");
+    let refusal = loop {
+        robot.send_to(&datagram(Peer::from(HOME_1), HOST, 1, &older), host).expect("it is sent");
+        let Greeting::Awaiting(awaited) = net::poll_greeting(game.world_mut()) else {
+            panic!("it is another")
+        };
+        if let Some(refusal) = awaited[0].refusal.clone() {
+            break refusal;
+        }
+    };
+    assert!(refusal.contains(&differs), "{refusal}");
+    drop((game, robot));
+    let host = UdpSocket::bind(host).expect("the match is over");
+    let mut robot = Elsewhere::start(&plan, HOME_1);
+    while robot.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+        let told = datagram(HOST, Peer::from(HOME_1), 1, &older);
+        host.send_to(&told, address_of(&plan, HOME_1)).expect("it is sent");
+        std::thread::yield_now();
+    }
+    let error = robot.end().expect_err("it is another").to_string();
+    assert!(error.contains(&differs) && error.lines().count() == 1, "{error}");
+}
+
+#[test]
 fn a_match_that_stands_still_reminds_its_robots_that_it_is_there() {
     let (mut game, plan) = open(&with_remote(talkative(0.1), &[HOME_1]));
     let robot = UdpSocket::bind(address_of(&plan, HOME_1)).expect("it was free");

@@ -54,9 +54,22 @@ impl Penalty {
 
 #[cfg(test)]
 mod tests {
-    use super::super::codes::Coded;
+    use super::super::codes::{Code, Coded};
     use super::super::control::Version;
     use super::*;
+
+    #[test]
+    fn who_is_sent_off_or_a_substitute_does_not_play_and_all_others_but_the_frozen_are_carried_off() {
+        for (penalty, _) in Penalty::ROWS.iter().chain([&(Penalty::Other(99), [Code::Is(99); 3])]) {
+            let expected = match penalty {
+                Penalty::None => None,
+                Penalty::MotionInSet => Some("stands where it is"),
+                Penalty::Substitute | Penalty::SentOff => Some("does not play"),
+                _ => Some("is carried off"),
+            };
+            assert_eq!(penalty.serving().map(Serving::words), expected, "{penalty}");
+        }
+    }
 
     #[test]
     fn motion_in_set_is_served_in_place_in_every_version_and_other_penalties_are_not() {

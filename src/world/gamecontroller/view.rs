@@ -237,12 +237,24 @@ mod tests {
     #[test]
     fn what_is_unknown_is_not_obeyed_and_says_so() {
         assert_eq!(view().not_obeyed(), []);
-        let odd = BoxView { state: State::Other(9), set_play: SetPlay::Other(8), ..view() };
+        let penalised = Penalised { player: 1, penalty: Penalty::Other(99), seconds_left: 0 };
+        let odd = BoxView {
+            state: State::Other(9),
+            game_phase: GamePhase::Other(7),
+            set_play: SetPlay::Other(8),
+            penalties: [vec![], vec![penalised]],
+            ..view()
+        };
+        let said: Vec<String> = odd.not_obeyed().iter().map(NotObeyed::to_string).collect();
         assert_eq!(
-            odd.not_obeyed(),
-            [NotObeyed::State(State::Other(9)), NotObeyed::SetPlay(SetPlay::Other(8))]
+            said,
+            [
+                "the state \"code 9\" is unknown: the one before goes on",
+                "the phase \"code 7\" is unknown: taken for normal play",
+                "the set play \"code 8\" is unknown: both teams play on",
+                "the penalty \"code 99\" is unknown: served off the pitch",
+            ]
         );
-        assert!(odd.not_obeyed()[1].to_string().contains("code 8"));
         let nobodys = BoxView { set_play: SetPlay::CornerKick, kicking: None, ..view() };
         assert_eq!(nobodys.not_obeyed()[0].to_string(), "a corner kick for neither team: both play on");
     }

@@ -1,12 +1,19 @@
 //! `touchline chaos` as a person or a script calls it.
 
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::*;
+#[cfg(target_os = "linux")]
+use {crate::command_line::every_command::closed_pipe, std::fs::File};
 
 /// What `touchline chaos` says while a match is played.
 fn chaos(game: &mut Match, plan: &MatchPlan, options: &[&str]) -> Output {
+    chaos_into(Stdio::piped(), game, plan, options)
+}
+
+/// The same, with somewhere that its output goes.
+fn chaos_into(out: Stdio, game: &mut Match, plan: &MatchPlan, options: &[&str]) -> Output {
     let at = sockets(plan)[0].to_string();
     let is_over = AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -15,6 +22,7 @@ fn chaos(game: &mut Match, plan: &MatchPlan, options: &[&str]) -> Output {
                 .args(["chaos", "--connect", &at])
                 .args(options)
                 .current_dir(env!("CARGO_MANIFEST_DIR"))
+                .stdout(out)
                 .output();
             is_over.store(true, Ordering::Relaxed);
             program.expect("the program starts")
@@ -57,6 +65,19 @@ fn the_program_prints_what_a_robot_believes_and_sends_a_strategy() {
     let error = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{error}");
     assert!(error.starts_with("home 1 refuses the subscription: it does not see by pictures"), "{error}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_output_that_is_closed_or_full_ends_the_program_with_a_code_of_its_own() {
+    let (mut game, plan) = open_to(talkative(45.0), &[]);
+    let options = ["--robot", "home:1", "--data"];
+    let output = chaos_into(closed_pipe().into(), &mut game, &plan, &options);
+    assert_eq!((output.status.code(), text(&output.stderr)), (Some(141), String::new()));
+    let full = File::options().write(true).open("/dev/full").expect("Linux has it");
+    let output = chaos_into(full.into(), &mut game, &plan, &options);
+    let error = text(&output.stderr);
+    assert_eq!((output.status.code(), error.lines().count()), (Some(5), 1), "{error}");
 }
 
 #[test]

@@ -226,6 +226,27 @@ fn opponents_are_put_away_from_the_ball_of_a_set_play_and_kept_away() {
 }
 
 #[test]
+fn at_every_set_play_of_every_version_opponents_are_put_away_and_held_and_the_team_that_has_it_is_not() {
+    use SetPlay::{CornerKick, DirectFreeKick, GoalKick, IndirectFreeKick, PushingFreeKick, SideLine};
+    for play in [CornerKick, DirectFreeKick, GoalKick, IndirectFreeKick, PushingFreeKick, SideLine] {
+        let mut table = playing();
+        table.ball = Vec2::new(0.5, -1.0);
+        let kicker = RobotId::new(Team::Away, 2);
+        table.put(kicker, Vec2::new(0.9, -1.0));
+        table.put(HOME_2, Vec2::new(0.2, -1.0));
+        hear(&mut table, &set_play(play));
+        let least = table.pitch.centre_circle_radius + table.book.spot_clearance;
+        let mut others = table.robots.iter().filter(|(robot, _)| robot.team == Team::Home);
+        assert!(others.all(|(_, at)| at.distance(table.ball) >= least), "{play}: {:?}", table.robots);
+        // The referee has put the ball there, and an opponent walks up to it.
+        table.put(HOME_2, table.ball - table.ball.normalize() * least);
+        hear(&mut table, &BoxView { stopped: false, ..set_play(play) });
+        assert_eq!(table.state.restraints.held_back, [HOME_2], "{play}");
+        assert!(!table.state.restraints.holds(kicker), "{play}");
+    }
+}
+
+#[test]
 fn the_ball_lies_in_the_corner_and_at_the_goalkeepers_area() {
     let (half, area) = (Table::new(60).pitch.half_size(), Table::new(60).pitch.own_penalty_area());
     for (left, towards_home) in [(0, -1.0), (1, 1.0)] {
