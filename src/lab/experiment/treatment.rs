@@ -27,6 +27,8 @@ pub(in crate::lab) struct TreatmentPlan {
     pub strategies: [String; 2],
     /// Of the texts of all files that the match was read from with their places in the asset folder, and of what is changed.
     pub assets: u64,
+    /// Where the design changes files that the match was read from.
+    pub in_use: Vec<Field>,
 }
 
 impl TreatmentPlan {
@@ -59,8 +61,11 @@ impl TreatmentPlan {
         plan.script = in_order(requests(&assets, &script, &plan)?);
         swapped.script = in_order(requests(&assets, &with_sides_swapped(&script), &swapped)?);
         let strategies = plan.teams.each_ref().map(|team| team.names.strategy.clone());
-        let assets = hash(assets.root(), &notes.texts(), changes);
-        Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets })
+        let (root, read) = (assets.root(), notes.texts());
+        let is_read = |file: &str| read.contains_key(&root.join(file));
+        let in_use = changes.iter().filter(|(_, change)| changed_file(change).is_some_and(is_read));
+        let in_use = in_use.map(|(at, _)| at.clone()).collect();
+        Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets: hash(root, &read, changes), in_use })
     }
 
     /// The team that is named first.
@@ -179,6 +184,15 @@ fn fields_of(at: &Field, change: &DesignChange) -> Field {
         DesignChange::TeamNumber { .. } => at.key("TeamNumber"),
         DesignChange::Instead { .. } => at.key("Instead"),
         _ => at.clone(),
+    }
+}
+
+/// The file that a change makes another.
+pub(super) fn changed_file(change: &DesignChange) -> Option<&str> {
+    match change {
+        DesignChange::Number { file, .. } | DesignChange::TeamNumber { file, .. } => Some(file),
+        DesignChange::Instead { of, .. } => Some(of),
+        _ => None,
     }
 }
 
