@@ -4,7 +4,11 @@
 # given, which a machine must be quiet for. Installs the display where there is none; ends with 77 where no window can be had at all.
 set -euo pipefail
 touchline=$(realpath "$1")
-most=${3:-}
+case ${2:-} in
+    "") most="" ;;
+    --within) most=${3:?milliseconds} ;;
+    *) echo "$2 is no option" && exit 2 ;;
+esac
 cd "$(dirname "$0")/.."
 
 missing=()
@@ -12,8 +16,10 @@ for pair in Xvfb:xvfb import:imagemagick; do
     command -v "${pair%%:*}" > /dev/null || missing+=("${pair##*:}")
 done
 compgen -G '/usr/share/vulkan/icd.d/*.json' > /dev/null || missing+=(mesa-vulkan-drivers)
+for library in libxcursor1:libXcursor.so.1 libxi6:libXi.so.6 libxkbcommon-x11-0:libxkbcommon-x11.so.0; do
+    grep -q "${library##*:}" <(ldconfig -p) || missing+=("${library%%:*}")
+done
 if [ ${#missing[@]} -gt 0 ]; then
-    missing+=(libxcursor1 libxi6 libxkbcommon-x11-0)
     { apt-get update --quiet &&
         DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends "${missing[@]}"; } || exit 77
 fi
@@ -23,7 +29,7 @@ trap 'kill $(jobs -p) 2> /dev/null || true; rm -rf "$folder"' EXIT
 export HOME="$folder" XDG_CONFIG_HOME="$folder"
 unset WAYLAND_DISPLAY
 exec 3> "$folder/display"
-Xvfb -br -displayfd 3 -screen 0 1280x800x24 2> /dev/null &
+Xvfb -br -noreset -displayfd 3 -screen 0 1280x800x24 2> /dev/null &
 display=$!
 until [ -s "$folder/display" ]; do
     kill -0 $display || exit 77
@@ -35,10 +41,14 @@ export DISPLAY
 first_picture() {
     # A shell keeps Ctrl-C from what it starts in the background.
     env --default-signal=INT "$touchline" play "$@" > "$folder/said" 2>&1 &
-    local window=$! began now code=0
+    local window=$! began now colours code=0
     began=$(date +%s%N)
-    until [ "$(import -silent -window root -resize 160x100 -format '%k' info:)" -gt 50 ]; do
+    until colours=$(import -silent -window root -resize 160x100 -format '%k' info:) && [ "${colours:-0}" -gt 50 ]; do
         now=$(date +%s%N)
+        if grep -q 'is played headless' "$folder/said"; then
+            cat "$folder/said"
+            exit 77
+        fi
         if ! kill -0 $window 2> /dev/null || [ $((now - began)) -gt 120000000000 ]; then
             cat "$folder/said"
             return 1
@@ -52,7 +62,7 @@ first_picture() {
     [ $code -eq 130 ]
 }
 
-first_picture || exit 77
+first_picture
 alone=$took
 first_picture --remote home:1 --patience 3600
 if [ -n "$most" ] && { [ "$alone" -gt "$most" ] || [ "$took" -gt "$most" ]; }; then

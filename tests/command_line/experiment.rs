@@ -199,7 +199,7 @@ fn a_design_that_cannot_be_is_refused_in_a_line_that_names_the_place() {
         (
             "HalfMinutes(0.1)",
             "Number(file: \"pitches/four_legged_2005.ron\", path: \"length\", to: 6.0)",
-            "common[0]: no match of the experiment is read from pitches/four_legged_2005.ron",
+            "common[0].Number.file: makes no difference to any match",
         ),
         ("HalfMinutes(0.1)", "Event(at: 3, what: Crash(\"home 9\"))", "home 9"),
     ] {

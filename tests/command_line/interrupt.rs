@@ -22,7 +22,7 @@ pub(super) fn start(arguments: &[&str]) -> Child {
     command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program starts")
 }
 
-/// Ends the program as Ctrl-C does and returns its exit code.
+/// Ends a program that runs as Ctrl-C does.
 pub(super) fn interrupt(process: &mut Child) {
     let status = Command::new("kill").args(["-INT", &process.id().to_string()]).status();
     assert!(status.expect("every Unix can kill").success());

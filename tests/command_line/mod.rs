@@ -2,7 +2,8 @@
 
 mod coverage;
 mod duel;
-pub(crate) mod every_command;
+#[cfg(target_os = "linux")]
+mod every_command;
 mod experiment;
 mod export;
 mod fit_eyes;
@@ -19,6 +20,7 @@ mod report;
 mod soak;
 mod tune;
 
+use std::io::{self, PipeWriter};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -31,6 +33,13 @@ pub(crate) fn program(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_touchline"));
     where_there_is_no_display(&mut command).args(arguments);
     command
+}
+
+/// An output that nobody reads.
+pub(crate) fn closed_pipe() -> PipeWriter {
+    let (reader, writer) = io::pipe().expect("the system has pipes");
+    drop(reader);
+    writer
 }
 
 fn where_there_is_no_display(command: &mut Command) -> &mut Command {

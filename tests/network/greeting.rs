@@ -209,6 +209,18 @@ fn a_robot_given_up_in_the_midst_of_a_match_plays_on_here_though_somebody_has_it
     assert!(driven(&game) > stood_at, "{stood_at:?}");
 }
 
+/// Why a robot refuses a match that says nothing but this.
+fn robots_refusal(plan: &MatchPlan, told: &[u8]) -> String {
+    let host = plan.directory().address_of(HOST).expect("it is there");
+    let host = UdpSocket::bind(host).expect("no match is there");
+    let mut robot = Elsewhere::start(plan, HOME_1);
+    while robot.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+        host.send_to(told, address_of(plan, HOME_1)).expect("it is sent");
+        std::thread::yield_now();
+    }
+    robot.end().expect_err("it is no match of the robot's").to_string()
+}
+
 #[test]
 fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
     let text = TeamMessage::Text("hello".into());
@@ -224,14 +236,7 @@ fn a_program_that_speaks_another_language_is_told_apart_on_either_side() {
         assert!(refusal.ends_with("it says what no robot of this version says"), "{refusal}");
     }
     drop((game, robot));
-    let host = UdpSocket::bind(host).expect("the match is over");
-    let mut robot = Elsewhere::start(&plan, HOME_1);
-    while robot.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
-        let told = datagram(HOST, Peer::from(HOME_1), 1, &text);
-        host.send_to(&told, address_of(&plan, HOME_1)).expect("it is sent");
-        std::thread::yield_now();
-    }
-    let error = robot.end().expect_err("it is no match").to_string();
+    let error = robots_refusal(&plan, &datagram(HOST, Peer::from(HOME_1), 1, &text));
     assert!(error.ends_with("it says what no match of this version says"), "{error}");
 }
 
@@ -262,14 +267,7 @@ fn a_robot_of_another_version_of_the_program_is_refused_on_either_side() {
     };
     assert!(refusal.contains(&differs), "{refusal}");
     drop((game, robot));
-    let host = UdpSocket::bind(host).expect("the match is over");
-    let mut robot = Elsewhere::start(&plan, HOME_1);
-    while robot.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
-        let told = datagram(HOST, Peer::from(HOME_1), 1, &older);
-        host.send_to(&told, address_of(&plan, HOME_1)).expect("it is sent");
-        std::thread::yield_now();
-    }
-    let error = robot.end().expect_err("it is another").to_string();
+    let error = robots_refusal(&plan, &datagram(HOST, Peer::from(HOME_1), 1, &older));
     assert!(error.contains(&differs) && error.lines().count() == 1, "{error}");
 }
 

@@ -126,10 +126,15 @@ impl Copied {
         }
     }
 
-    /// The match with another number in one place of the file.
-    fn with(&self, place: &Range<usize>, number: &str) -> Result<MatchPlan, DataError> {
+    /// Writes the file with another number in one place.
+    fn write(&self, place: &Range<usize>, number: &str) {
         let changed = format!("{}{number}{}", &self.text[..place.start], &self.text[place.end..]);
         fs::write(self.path(), changed).expect("the file is written");
+    }
+
+    /// The match with another number in one place of the file.
+    fn with(&self, place: &Range<usize>, number: &str) -> Result<MatchPlan, DataError> {
+        self.write(place, number);
         let (kind, name, game) = self.file;
         let scenario = self.folder.path().join("scenario.ron");
         plan(&AssetFolder::new(self.folder.path()), game, (kind == "strategies").then_some(name), &scenario)
@@ -177,15 +182,16 @@ fn every_number_of_a_camera_an_experiment_or_a_tuning_has_a_bound() {
     ] {
         let copied = Copied::new((kind.folder(), name, ""));
         let there = AssetFolder::new(copied.folder.path());
-        for place in numbers(&copied.text) {
+        let places = numbers(&copied.text);
+        assert!(places.len() >= 2, "{name}");
+        for place in places {
+            let line = copied.text[..place.start].matches('\n').count() + 1;
+            let at = format!("{}:{line}:", copied.path().display());
             for number in ["1e30", "-1e30", "NaN"] {
-                let changed = format!("{}{number}{}", &copied.text[..place.start], &copied.text[place.end..]);
-                fs::write(copied.path(), changed).expect("the file is written");
+                copied.write(&place, number);
                 let Err(error) = kinds::read(&there, kind, &copied.path().into()) else {
-                    panic!("{name} was read with {number} for {}", &copied.text[place.start - 30..place.end]);
+                    panic!("{at} {name} was read with {number}");
                 };
-                let line = copied.text[..place.start].matches('\n').count() + 1;
-                let at = format!("{}:{line}:", copied.path().display());
                 let error = error.to_string();
                 assert!(error.starts_with(&at) && error.lines().count() == 1, "{number}: {error}");
             }

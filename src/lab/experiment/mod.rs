@@ -4,6 +4,7 @@
 //! [`ExperimentRow`] with the value of every [`Metric`].
 
 mod claim;
+mod effect;
 mod figure_words;
 mod file;
 mod metric;
@@ -19,6 +20,7 @@ mod until;
 
 pub use claim::{ClaimVerdict, JudgedClaim};
 pub(in crate::lab) use claim::{telling, verdict};
+pub(in crate::lab) use effect::{check_effects, read_treatment};
 pub use figure_words::{MeanWithInterval, probability};
 pub use file::{
     ClaimedDifference, DesignChange, ExperimentFile, Factor, FactorLevels, NamedLevel, SeedBlocks,

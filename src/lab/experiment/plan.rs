@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use super::effect::{check_effects, read_treatment};
 use super::file::{ExperimentFile, PlacedChange, placed};
 use super::row::{ExperimentRow, RowKey};
-use super::treatment::{TreatmentPlan, changed_file};
+use super::treatment::TreatmentPlan;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source};
 
 /// An experiment that can be played. Its matches are numbered seed by seed, so that the first rows of a table hold as many
@@ -50,16 +51,10 @@ impl ExperimentPlan {
             }
         }
         let levels: Vec<Vec<usize>> = (0..file.treatments()).map(|number| file.places(number)).collect();
-        let treatments =
-            levels.iter().map(|levels| TreatmentPlan::read(assets, source, &changes(&file, levels)));
+        let treatments = levels.iter().map(|levels| read_treatment(assets, source, &changes(&file, levels)));
         let treatments = treatments.collect::<Result<Vec<TreatmentPlan>, _>>()?;
-        let in_use: Vec<&Field> = treatments.iter().flat_map(|treatment| &treatment.in_use).collect();
-        for (at, change) in levels.iter().flat_map(|levels| changes(&file, levels)) {
-            if let Some(unused) = changed_file(&change).filter(|_| !in_use.contains(&&at)) {
-                let message = format!("no match of the experiment is read from {unused}");
-                return Err(source.error_at(&at, message));
-            }
-        }
+        let changes = levels.iter().map(|levels| changes(&file, levels));
+        check_effects(assets, source, &changes.zip(&treatments).collect::<Vec<_>>())?;
         Ok(ExperimentPlan { text: source.text.to_string(), file, treatments, levels })
     }
 

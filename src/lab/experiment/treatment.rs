@@ -9,8 +9,8 @@ use super::file::{DesignChange, PlacedChange};
 use super::metric::{MatchFigures, Metric};
 use super::row::MatchResult;
 use crate::data::{
-    AssetFolder, AssetKind, AssetTexts, DataError, Field, NumberToken, ReadTexts, Segment, Source, no_such,
-    numbers, with_number,
+    AssetFolder, AssetKind, AssetTexts, DataError, Field, NumberToken, Segment, Source, no_such, numbers,
+    with_number,
 };
 use crate::game::requests::Request;
 use crate::game::{Choice, Match, MatchPlan, TeamPlan, file_named};
@@ -27,8 +27,6 @@ pub(in crate::lab) struct TreatmentPlan {
     pub strategies: [String; 2],
     /// Of the texts of all files that the match was read from with their places in the asset folder, and of what is changed.
     pub assets: u64,
-    /// Where the design changes files that the match was read from.
-    pub in_use: Vec<Field>,
 }
 
 impl TreatmentPlan {
@@ -41,8 +39,15 @@ impl TreatmentPlan {
         design: &Source,
         changes: &[PlacedChange],
     ) -> Result<TreatmentPlan, DataError> {
-        let read = match_plan(assets, design, changes);
-        let (mut plan, assets, notes) = read.map_err(|fault| blame(assets, design, changes, fault))?;
+        let choice = choice(assets, design, changes)?;
+        let changed =
+            |whose| changed_texts(assets, design, changes, whose).map(|texts| assets.with_texts(texts));
+        let (assets, notes) = changed(None)?.noting();
+        let mut plan = MatchPlan::read(&assets, &choice)?;
+        for team in Team::BOTH.into_iter().filter(|team| has_own_numbers(*team, changes)) {
+            let own = MatchPlan::read(&changed(Some(team))?, &choice)?;
+            plan.teams[team.index()] = own.teams[team.index()].clone();
+        }
         let mut script = Vec::new();
         for (at, change) in changes {
             match change {
@@ -61,16 +66,19 @@ impl TreatmentPlan {
         plan.script = in_order(requests(&assets, &script, &plan)?);
         swapped.script = in_order(requests(&assets, &with_sides_swapped(&script), &swapped)?);
         let strategies = plan.teams.each_ref().map(|team| team.names.strategy.clone());
-        let (root, read) = (assets.root(), notes.texts());
-        let is_read = |file: &str| read.contains_key(&root.join(file));
-        let in_use = changes.iter().filter(|(_, change)| changed_file(change).is_some_and(is_read));
-        let in_use = in_use.map(|(at, _)| at.clone()).collect();
-        Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets: hash(root, &read, changes), in_use })
+        let assets = hash(assets.root(), &notes.texts(), changes);
+        Ok(TreatmentPlan { plans: [plan, swapped], strategies, assets })
     }
 
     /// The team that is named first.
     pub fn home(&self) -> &TeamPlan {
         &self.plans[0].teams[0]
+    }
+
+    /// Whether nothing in its matches is otherwise than in those of another one, whatever files there are beside those that were read.
+    pub fn plays_as(&self, other: &TreatmentPlan) -> bool {
+        let mut plans = self.plans.iter().zip(&other.plans);
+        plans.all(|(plan, other)| MatchPlan { assets: other.assets.clone(), ..plan.clone() } == *other)
     }
 
     /// Plays the match with a seed. One that breaks the program is an error that says so.
@@ -90,43 +98,6 @@ fn play(plan: &MatchPlan, swapped: bool) -> MatchResult {
     let values = sides.map(|team| Metric::ALL.iter().map(|metric| metric.value(figures, team)).collect());
     let (record, clock) = (game.record(), game.clock());
     MatchResult { digest: record.digest, seconds: clock.now(), played: record.played, values }
-}
-
-/// The match with its files changed, and the folder with these files in it.
-fn match_plan(
-    assets: &AssetFolder,
-    design: &Source,
-    changes: &[PlacedChange],
-) -> Result<(MatchPlan, AssetFolder, ReadTexts), DataError> {
-    let choice = choice(assets, design, changes)?;
-    let changed = |whose| changed_texts(assets, design, changes, whose).map(|texts| assets.with_texts(texts));
-    let (shared, notes) = changed(None)?.noting();
-    let mut plan = MatchPlan::read(&shared, &choice)?;
-    for team in Team::BOTH.into_iter().filter(|team| has_own_numbers(*team, changes)) {
-        let own = MatchPlan::read(&changed(Some(team))?, &choice)?;
-        plan.teams[team.index()] = own.teams[team.index()].clone();
-    }
-    Ok((plan, shared, notes))
-}
-
-/// A fault that is not there without something that the design puts in a file is told at its place in the design.
-fn blame(assets: &AssetFolder, design: &Source, changes: &[PlacedChange], fault: DataError) -> DataError {
-    let put = changes.iter().enumerate().rev().find_map(|(place, (at, change))| {
-        let key = match change {
-            DesignChange::Number { .. } if is_values(at) => "values",
-            DesignChange::Number { .. } | DesignChange::TeamNumber { .. } => "to",
-            DesignChange::Instead { .. } => "read",
-            _ => return None,
-        };
-        let others = [&changes[..place], &changes[place + 1..]].concat();
-        let without = match_plan(assets, design, &others).err();
-        (without.as_ref() != Some(&fault)).then(|| fields_of(at, change).key(key))
-    });
-    match put {
-        // What is wrong in the design itself has its place already.
-        Some(at) if fault.path != design.path => design.error_at(&at, fault.to_string()),
-        _ => fault,
-    }
 }
 
 /// Whether a number of a file is another for this team alone.
@@ -178,21 +149,12 @@ fn changed_texts(
 }
 
 /// Where a change names its number or its file: in the change itself, but for the values of a factor.
-fn fields_of(at: &Field, change: &DesignChange) -> Field {
+pub(super) fn fields_of(at: &Field, change: &DesignChange) -> Field {
     match change {
         DesignChange::Number { .. } if !is_values(at) => at.key("Number"),
         DesignChange::TeamNumber { .. } => at.key("TeamNumber"),
         DesignChange::Instead { .. } => at.key("Instead"),
         _ => at.clone(),
-    }
-}
-
-/// The file that a change makes another.
-pub(super) fn changed_file(change: &DesignChange) -> Option<&str> {
-    match change {
-        DesignChange::Number { file, .. } | DesignChange::TeamNumber { file, .. } => Some(file),
-        DesignChange::Instead { of, .. } => Some(of),
-        _ => None,
     }
 }
 
@@ -209,7 +171,7 @@ pub(in crate::lab) fn number_at(text: &str, path: &str) -> Result<NumberToken, S
 }
 
 /// Whether a change is one of the values of a factor.
-fn is_values(at: &Field) -> bool {
+pub(super) fn is_values(at: &Field) -> bool {
     matches!(at.segments().last(), Some(Segment::Key(key)) if key == "Values")
 }
 
@@ -278,31 +240,6 @@ mod tests {
     fn read(changes: &[DesignChange]) -> TreatmentPlan {
         let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
         TreatmentPlan::read(&assets, &Source::new("a.ron", ""), &placed(&Field::root(), changes)).unwrap()
-    }
-
-    #[test]
-    fn what_a_design_puts_in_a_file_is_told_at_its_place_in_the_design() {
-        let assets = AssetFolder::new(concat!(env!("CARGO_MANIFEST_DIR"), "/assets"));
-        let design = Source::new(
-            "a.ron",
-            r#"[
-    Home("hammerheads_2001"),
-    Number(file: "radios/good.ron", path: "loss.Independent[0]", to: 7),
-    TeamNumber(team: Home, file: "strategies/hammerheads_2001.ron", path: "schemas.dock.DockBehind.standoff", to: -7),
-    Instead(of: "pitches/middle_size_2001.ron", read: "radios/good.ron"),
-]"#,
-        );
-        let changes: Vec<DesignChange> = design.parse().unwrap();
-        for (place, told) in [
-            (1, "a.ron:3:70: [1].Number.to: "),
-            (2, "a.ron:4:115: [2].TeamNumber.to: "),
-            (3, "a.ron:5:55: [3].Instead.read: "),
-        ] {
-            let changes = placed(&Field::root(), &changes);
-            let one = [changes[0].clone(), changes[place].clone()];
-            let fault = TreatmentPlan::read(&assets, &design, &one).unwrap_err().to_string();
-            assert!(fault.starts_with(told) && fault.contains("/assets/"), "{fault}");
-        }
     }
 
     #[test]

@@ -49,6 +49,7 @@ impl Display for JamReport {
                 )?;
                 packets.iter().try_for_each(|packet| writeln!(f, "  {packet}"))?;
             }
+            JamEnd::Stopped => writeln!(f, "no harm was found until it was interrupted")?,
             JamEnd::Unharmed => writeln!(f, "no harm was found with {} packets", self.budget)?,
         }
         match self.resilience {

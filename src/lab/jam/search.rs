@@ -1,11 +1,13 @@
 //! The search: sets of packets by their size, each once.
 
-use rayon::prelude::*;
+use std::convert::Infallible;
+
 use serde::Serialize;
 
 use crate::comms::radio::Act;
 use crate::comms::tcm::DataType;
 use crate::ids::RobotId;
+use crate::lab::all_cores::on_all_cores;
 
 /// What is done to a packet: the n-th, from 1, of a kind from a robot to another.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -47,6 +49,8 @@ pub enum JamEnd {
     },
     /// Nothing that was tried does.
     Unharmed,
+    /// Somebody stopped it, and nothing that was tried until then does.
+    Stopped,
 }
 
 /// What is known when the search is over.
@@ -58,9 +62,6 @@ pub(super) struct JamSearch {
     /// The largest size of which all sets were tried without harm; none if even the match itself does harm.
     pub exhausted: Option<usize>,
 }
-
-/// Matches that are played before somebody is asked whether to go on.
-const AT_A_TIME: usize = 32;
 
 /// Tries sets of up to `budget` packets. Of each size, at most `beam` sets are led on to the next: those that came nearest to harm.
 pub(super) fn search(
@@ -76,31 +77,30 @@ pub(super) fn search(
     let (mut played, mut exhausted, mut is_whole) = (1, 0, true);
     let mut level = vec![(Vec::new(), whole)];
     for size in 1..=budget {
-        let mut next: Vec<(Vec<Interfered>, Jammed)> = Vec::new();
         let larger = |set: &[Interfered], packet: Interfered| [set, &[packet]].concat();
-        let mut larger =
+        let sets =
             level.iter().flat_map(|(set, jammed)| jammed.packets.iter().map(|packet| larger(set, *packet)));
-        let is_stopped = loop {
-            let sets: Vec<Vec<Interfered>> = larger.by_ref().take(AT_A_TIME).collect();
-            if sets.is_empty() {
-                break false;
-            }
-            played += sets.len();
-            next.par_extend(sets.into_par_iter().map(|set| {
-                let jammed = play(&set);
-                (set, jammed)
-            }));
-            if !goes_on(played) {
-                break true;
-            }
-        };
+        let (mut next, mut is_stopped) = (Vec::new(), false);
+        let Ok(()) = on_all_cores(
+            sets.enumerate(),
+            || (),
+            |(), (place, set)| (place, play(&set), set),
+            |tried| {
+                next.push(tried);
+                played += 1;
+                is_stopped |= !goes_on(played);
+                Ok::<_, Infallible>(!is_stopped)
+            },
+        );
+        next.sort_unstable_by_key(|(place, ..)| *place);
+        let mut next: Vec<_> = next.into_iter().map(|(_, jammed, set)| (set, jammed)).collect();
         let harmed = next.iter().filter_map(|(set, jammed)| Some((jammed.harmed?, set)));
         if let Some((tick, set)) = harmed.min_by_key(|(tick, _)| *tick) {
             let end = JamEnd::Harmed { packets: set.clone(), tick };
             return JamSearch { end, played, exhausted: Some(exhausted) };
         }
         if is_stopped {
-            break;
+            return JamSearch { end: JamEnd::Stopped, played, exhausted: Some(exhausted) };
         }
         exhausted = if is_whole { size } else { exhausted };
         // Equal ones stay in the order in which they were found.
@@ -150,21 +150,24 @@ mod tests {
     }
 
     #[test]
-    fn who_stops_it_waits_for_few_matches_and_gets_what_harm_was_found_by_then() {
-        let mut asked = Vec::new();
-        let found = search(
-            3,
-            1000,
-            |set| play(set, &[0, 1]),
-            |played| {
-                asked.push(played);
-                played < 12
-            },
-        );
-        assert_eq!((found.played, found.exhausted, asked), (43, Some(1), vec![11, 43]));
-        assert!(matches!(found.end, JamEnd::Harmed { .. }), "{found:?}");
-        let unharmed = search(3, 1000, |set| play(set, &[7, 8, 9]), |played| played < 12);
-        assert_eq!((unharmed.end, unharmed.played, unharmed.exhausted), (JamEnd::Unharmed, 43, Some(1)));
+    fn whether_to_go_on_is_asked_after_each_match_and_who_stops_it_gets_what_harm_was_found_by_then() {
+        let stopped_at = |at: usize, fatal: &[u64]| {
+            let mut asked = Vec::new();
+            let found = search(
+                3,
+                1000,
+                |set| play(set, fatal),
+                |played| {
+                    asked.push(played);
+                    played < at
+                },
+            );
+            assert!(asked.into_iter().eq(2..=found.played), "{found:?}");
+            (found.end, found.exhausted)
+        };
+        assert_eq!(stopped_at(12, &[7, 8, 9]), (JamEnd::Stopped, Some(1)));
+        assert_eq!(stopped_at(2, &[7, 8, 9]), (JamEnd::Stopped, Some(0)));
+        assert!(matches!(stopped_at(56, &[7, 9]), (JamEnd::Harmed { .. }, Some(1))));
     }
 
     #[test]

@@ -9,7 +9,9 @@ use super::row::TuningRow;
 use crate::data::{AssetFolder, AssetKind, DataError, Field, Source, with_number};
 use crate::ids::Team;
 use crate::lab::all_cores::on_all_cores;
-use crate::lab::experiment::{DesignChange, PlacedChange, TreatmentPlan, VERSION, number_at, placed};
+use crate::lab::experiment::{
+    DesignChange, PlacedChange, TreatmentPlan, VERSION, check_effects, number_at, placed, read_treatment,
+};
 
 /// A tuning of one team that can be played.
 #[derive(Clone, Debug)]
@@ -71,12 +73,15 @@ impl TuningPlan {
             count => (0..count).map(Some).collect(),
         };
         let plan = |team| {
-            let before = TreatmentPlan::read(assets, &source, &changes(&file, team, None))?;
+            let before = read_treatment(assets, &source, &changes(&file, team, None))?;
             let (file, source, original) = (file.clone(), source.clone(), original.clone());
             let plan = TuningPlan { file, team, source, assets: assets.clone(), original, before };
             plan.team_changes().map(|()| plan)
         };
-        teams.into_iter().map(plan).collect()
+        let plans = teams.into_iter().map(plan).collect::<Result<Vec<TuningPlan>, _>>()?;
+        let changes = plans.iter().map(|plan| (changes(&file, plan.team, None), &plan.before));
+        check_effects(assets, &source, &changes.collect::<Vec<_>>())?;
+        Ok(plans)
     }
 
     /// The name of the team, if the file names teams.

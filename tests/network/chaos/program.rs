@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::*;
 #[cfg(target_os = "linux")]
-use {crate::command_line::every_command::closed_pipe, std::fs::File};
+use {crate::command_line::closed_pipe, std::fs::File};
 
 /// What `touchline chaos` says while a match is played.
 fn chaos(game: &mut Match, plan: &MatchPlan, options: &[&str]) -> Output {
