@@ -23,6 +23,8 @@ pub struct LabelPlace(usize);
 const GAP: f32 = 2.0;
 /// A label goes back to its first place when there is this much room, in points.
 const ROOM: f32 = 7.0;
+/// Share of a label by which it has to cover less of bodies at another place before it goes there.
+const MATTERS: f32 = 0.25;
 /// Where a label may go around its robot, best first: below, above, aside, and at the corners.
 const PLACES: [Vec2; 8] = [
     vec2(0.0, 1.0),
@@ -65,13 +67,25 @@ impl LabelPlacement {
         let order = || home.into_iter().chain([kept.0]).chain(0..PLACES.len());
         let found = order()
             .find(|place| self.is_free(at(*place)))
-            .or_else(|| order().find(|place| self.is_apart(at(*place))));
+            .or_else(|| self.least_covering(order().map(|place| (place, at(place))), kept));
         let (rect, choice) = match found {
             Some(place) => (at(place), LabelPlace(place)),
             None => (self.below_all(at(0)), kept),
         };
         self.labels.push(rect);
         (rect, choice)
+    }
+
+    /// Where no place is free: the one at which a label covers least of any body. It stays where it is unless another place is better
+    /// by more than a little.
+    fn least_covering(&self, places: impl Iterator<Item = (usize, Rect)>, kept: LabelPlace) -> Option<usize> {
+        let covers = |(place, rect): &(usize, Rect)| {
+            let areas = self.bodies.iter().map(|body| body.intersect(*rect)).filter(Rect::is_positive);
+            let covered: f32 = areas.map(|area| area.area()).sum();
+            covered - if *place == kept.0 { MATTERS * rect.area() } else { 0.0 }
+        };
+        let apart = places.filter(|(_, rect)| self.is_apart(*rect));
+        apart.min_by(|one, other| covers(one).total_cmp(&covers(other))).map(|(place, _)| place)
     }
 
     fn is_apart(&self, rect: Rect) -> bool {
@@ -119,6 +133,19 @@ mod tests {
         for (i, a) in placed.labels.iter().enumerate() {
             assert!(placed.labels[..i].iter().all(|b| !a.intersects(*b)), "{a} in {:?}", placed.labels);
         }
+    }
+
+    #[test]
+    fn where_no_place_is_free_a_label_covers_as_little_as_it_can_and_does_not_hop() {
+        let mut placed = LabelPlacement::default();
+        let middle = pos2(100.0, 100.0);
+        placed.add_body(Rect::from_center_size(middle, vec2(70.0, 70.0)));
+        let on = |x: f32| Rect::from_center_size(pos2(x, 128.0), vec2(20.0, 20.0));
+        placed.add_body(on(100.0));
+        let (rect, choice) = placed.place(middle, 20.0, SIZE, LabelPlace(0));
+        assert!(choice != LabelPlace(0) && !rect.intersects(on(100.0)), "{rect}");
+        let mut placed = LabelPlacement { labels: Vec::new(), ..placed };
+        assert_eq!(placed.place(middle, 20.0, SIZE, choice).1, choice);
     }
 
     #[test]
