@@ -116,7 +116,14 @@ pub fn wrap_angle(angle: f32) -> f32 {
     if angle.abs() <= PI {
         return angle;
     }
-    let wrapped = (angle + PI).rem_euclid(TAU) - PI;
+    let turned = angle + PI;
+    // What the remainder is within a turn to either side, to the bit; it costs as much as a sine.
+    let within = match turned {
+        _ if (TAU..2.0 * TAU).contains(&turned) => turned - TAU,
+        _ if (-TAU..0.0).contains(&turned) => turned + TAU,
+        _ => turned.rem_euclid(TAU),
+    };
+    let wrapped = within - PI;
     if wrapped.is_finite() { wrapped } else { 0.0 }
 }
 
@@ -195,6 +202,8 @@ impl Zone {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     #[test]
@@ -217,6 +226,18 @@ mod tests {
         assert!((wrap_angle(3.0 * PI) - -PI).abs() < 1e-5);
         assert!((wrap_angle(-3.5 * PI) - 0.5 * PI).abs() < 1e-5);
         assert_eq!(wrap_angle(1.0), 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn a_wrapped_angle_is_the_remainder_to_the_bit(turns in -3.0_f32..3.0, ulps in -4_i32..=4) {
+            let near = |angle: f32| f32::from_bits(angle.to_bits().wrapping_add_signed(ulps));
+            for angle in [turns * TAU, near(turns.round() * PI), near(turns.round() * TAU)] {
+                let remainder = (angle + PI).rem_euclid(TAU) - PI;
+                let expected = if angle.abs() <= PI { angle } else if remainder.is_finite() { remainder } else { 0.0 };
+                prop_assert_eq!(wrap_angle(angle).to_bits(), expected.to_bits(), "{}", angle);
+            }
+        }
     }
 
     #[test]

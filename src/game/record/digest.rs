@@ -58,20 +58,24 @@ pub(super) type BodyWords = [u32; 6];
 pub(super) fn sorted<'a>(
     bodies: impl Iterator<Item = <DigestedBody<'static> as QueryData>::Item<'a, 'a>>,
 ) -> SmallVec<[(BodyKey, BodyWords); 24]> {
-    let mut sorted: SmallVec<_> = bodies
-        .map(|(pose, robot, trailer, role, activity, swapping)| {
-            let key = match (robot, trailer) {
-                (Some(id), _) => BodyKey::Robot(*id),
-                (None, Some(trailer)) => BodyKey::Trailer(trailer.of),
-                (None, None) => BodyKey::Ball,
-            };
-            let role = role.map_or(0, |role| role.0 as u32);
-            let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
-            let swap = swapping.map_or(0, |swapping| Xxh3DefaultBuilder.hash_one(&swapping.machine) as u32);
-            let [x, y, heading] = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
-            (key, [x, y, heading, role, activity, swap])
-        })
-        .collect();
-    sorted.sort_unstable_by_key(|(key, _)| *key);
+    // The world has trailers and robots each in order, but not which of them comes first: to sort all of them at once moves most.
+    let mut sorted = SmallVec::new();
+    let mut others: SmallVec<[(BodyKey, BodyWords); 24]> = SmallVec::new();
+    for (pose, robot, trailer, role, activity, swapping) in bodies {
+        let [x, y, heading] = [pose.position.x, pose.position.y, pose.heading].map(f32::to_bits);
+        let Some(id) = robot else {
+            let key = trailer.map_or(BodyKey::Ball, |trailer| BodyKey::Trailer(trailer.of));
+            others.push((key, [x, y, heading, 0, 0, 0]));
+            continue;
+        };
+        let role = role.map_or(0, |role| role.0 as u32);
+        let activity = activity.map_or(0, |activity| (activity.acting_as << 16 | activity.state) as u32);
+        let swap = swapping.map_or(0, |swapping| Xxh3DefaultBuilder.hash_one(&swapping.machine) as u32);
+        sorted.push((BodyKey::Robot(*id), [x, y, heading, role, activity, swap]));
+    }
+    for part in [&mut sorted, &mut others] {
+        part.sort_unstable_by_key(|(key, _)| *key);
+    }
+    sorted.extend(others);
     sorted
 }
