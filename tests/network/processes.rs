@@ -16,18 +16,25 @@ use touchline::robot::SteeringIntent;
 use touchline::world::referee::Phase;
 
 use super::{HOME_0, HOME_1, address_of, by_udp, free_directory, greet, open, stranger, talkative};
+#[cfg(target_os = "linux")]
+use crate::command_line::closed_pipe;
 
 /// A process that ends with the test, whatever happens.
 struct Process(Option<Child>);
 
 impl Process {
     fn start(arguments: &[&str], addresses: &Path) -> Process {
+        Process::start_into(Stdio::piped(), arguments, addresses)
+    }
+
+    /// The same, with somewhere that its output goes.
+    fn start_into(out: Stdio, arguments: &[&str], addresses: &Path) -> Process {
         let child = Command::new(env!("CARGO_BIN_EXE_touchline"))
             .args(arguments)
             .arg("--addresses")
             .arg(addresses)
             .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .stdout(Stdio::piped())
+            .stdout(out)
             .stderr(Stdio::piped())
             .spawn();
         Process(Some(child.expect("the program starts")))
@@ -315,6 +322,28 @@ fn a_robot_whose_match_is_gone_ends_with_its_report_and_one_line() {
     assert!(report["answered"].as_u64() > Some(0), "{report}");
     let line = "home 1 has heard nothing of its match for 3 s\n";
     assert_eq!((stderr(&output).as_str(), output.status.code()), (line, Some(1)));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_robot_whose_report_cannot_be_written_ends_with_a_code_of_its_own() {
+    let full = std::fs::File::options().write(true).open("/dev/full").expect("Linux has it");
+    for (out, code, lines) in [(Stdio::from(closed_pipe()), 141, 0), (Stdio::from(full), 5, 1)] {
+        let remote = NetworkPlan { udp: true, remote: vec![HOME_1], ..NetworkPlan::default() };
+        let (mut game, plan) = open(&MatchPlan { network: remote, ..talkative(0.02) });
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let addresses = write_addresses(&plan, folder.path());
+        let robot = ["robot", "--team", "home", "--number", "1"];
+        let mut robot = Process::start_into(out, &[&robot[..], &TALKATIVE].concat(), &addresses);
+        greet(&mut game);
+        while !game.is_over() {
+            game.tick();
+        }
+        net::finish(game.world_mut());
+        let output = robot.end();
+        let error = stderr(&output);
+        assert_eq!((output.status.code(), error.lines().count()), (Some(code), lines), "{error}");
+    }
 }
 
 #[test]
