@@ -25,7 +25,8 @@ pub fn window_layer(_: &mut bevy::app::App) -> Option<bevy::log::BoxedFmtLayer> 
     Some(Box::new(layer.with_writer(io::stderr)))
 }
 
-/// Whether a terminal reads the standard error stream that shows colours, and nobody has asked for none (`NO_COLOR`).
+/// Whether a terminal reads the standard error stream that shows colours, and nobody has asked for none (`NO_COLOR`). A console of CI
+/// (`CI`) shows them whatever `TERM` says.
 pub fn stderr_takes_colours() -> bool {
     AutoStream::choice(&io::stderr()) != ColorChoice::Never
 }

@@ -95,14 +95,17 @@ fn log_lines_have_no_colours_where_no_terminal_reads() {
     assert!(line.contains("WARN") && !line.contains('\u{1b}'), "{line:?}");
 }
 
-/// What the program says on a terminal, with a variable of its environment.
+/// What the program says on a terminal, with a variable of its environment; no other asks for colours or for none.
 #[cfg(target_os = "linux")]
 fn on_a_terminal(arguments: &str, variable: Option<(&str, &str)>) -> String {
     let call = format!("'{}' {arguments}", env!("CARGO_BIN_EXE_touchline"));
     let mut script = std::process::Command::new("script");
     script.args(["--quiet", "--return", "--command", &call, "/dev/null"]);
     script.current_dir(env!("CARGO_MANIFEST_DIR")).stdin(Stdio::null());
-    script.env_remove("NO_COLOR").env("TERM", "xterm").envs(variable);
+    for asking in ["CI", "CLICOLOR", "CLICOLOR_FORCE", "NO_COLOR"] {
+        script.env_remove(asking);
+    }
+    script.env("TERM", "xterm").envs(variable);
     text(&script.output().expect("`script` of util-linux is here").stdout)
 }
 
