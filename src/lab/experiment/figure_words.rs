@@ -14,23 +14,35 @@ pub struct MeanWithInterval {
 
 impl Display for MeanWithInterval {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Some(value) = self.value else { return write!(f, "-") };
+        let places = decimal_places(value, self.interval);
         let number = |value: f64| {
-            let value = rounded(value);
-            if f.sign_plus() { format!("{value:+.3}") } else { format!("{value:.3}") }
+            let value = rounded(value, places);
+            if f.sign_plus() { format!("{value:+.places$}") } else { format!("{value:.places$}") }
         };
-        match (self.value, self.interval) {
-            (None, _) => write!(f, "-"),
-            (Some(value), None) => write!(f, "{}", number(value)),
-            (Some(value), Some(Interval { low, high })) => {
+        match self.interval {
+            None => write!(f, "{}", number(value)),
+            Some(Interval { low, high }) => {
                 write!(f, "{} [{}, {}]", number(value), number(low), number(high))
             }
         }
     }
 }
 
-/// To three digits, without a negative zero.
-fn rounded(value: f64) -> f64 {
-    (value * 1000.0).round() / 1000.0 + 0.0
+/// How many decimal places show a figure: three, or up to six if with fewer it would look like nothing or like an interval that begins at
+/// zero.
+fn decimal_places(value: f64, interval: Option<Interval>) -> usize {
+    let [low, high] = interval.map_or([value; 2], |Interval { low, high }| [low, high]);
+    let largest = value.abs().max(low.abs()).max(high.abs());
+    let nearest = if low > 0.0 || high < 0.0 { low.abs().min(high.abs()) } else { largest };
+    let is_told = |&places: &usize| rounded(nearest, places) > 0.0 && rounded(largest, places - 1) > 0.0;
+    if largest > 0.0 { (3..6).find(is_told).unwrap_or(6) } else { 3 }
+}
+
+/// To so many decimal places, without a negative zero.
+fn rounded(value: f64, places: usize) -> f64 {
+    let scale = 10_f64.powi(places as i32);
+    (value * scale).round() / scale + 0.0
 }
 
 /// The probability of a test.
@@ -49,5 +61,18 @@ mod tests {
         assert_eq!(figure.to_string(), "0.250 [0.000, 1.500]");
         assert_eq!(format!("{figure:+}"), "+0.250 [+0.000, +1.500]");
         assert_eq!(MeanWithInterval { value: None, interval: None }.to_string(), "-");
+    }
+
+    #[test]
+    fn what_is_small_but_not_nothing_is_told_to_more_places() {
+        let told = |value, low, high| {
+            format!("{:+}", MeanWithInterval { value: Some(value), interval: Some(Interval { low, high }) })
+        };
+        assert_eq!(told(-0.00012, -0.0003, -0.00004), "-0.00012 [-0.00030, -0.00004]");
+        assert_eq!(told(0.5, 0.0002, 1.5), "+0.5000 [+0.0002, +1.5000]", "it does not hold zero");
+        assert_eq!(told(0.5, -0.0002, 1.5), "+0.500 [+0.000, +1.500]");
+        assert_eq!(told(1e-9, 1e-10, 1e-8), "+0.000000 [+0.000000, +0.000000]", "nobody cares for that");
+        assert_eq!(told(0.0, 0.0, 0.0), "+0.000 [+0.000, +0.000]");
+        assert_eq!(MeanWithInterval { value: Some(0.0004), interval: None }.to_string(), "0.00040");
     }
 }
