@@ -164,7 +164,7 @@ impl Attacking {
 }
 
 /// An axis-parallel rectangle in metres; corners may lie outside the pitch.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Reflect)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, Reflect)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
     /// The corner with the least x and y, m.

@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::pursuit::PING_PONG;
+use super::replacement::Replacement;
 use super::span::Span;
 use crate::protocol::b3p::Distance;
 
@@ -20,8 +21,13 @@ pub struct BookingFigures {
     pub several_go: Span,
     /// How often another robot began to go for the ball.
     pub takeovers: u64,
+    /// How soon a booker that went out of play was replaced, while another knew the ball.
+    pub replacement: Replacement,
     #[serde(skip)]
     last: [Option<(u8, f64)>; 2],
+    /// The robot that alone went for the ball in the tick before.
+    #[serde(skip)]
+    only: Option<u8>,
 }
 
 /// A robot in play that knows where the ball is.
@@ -34,7 +40,14 @@ pub(super) struct BallSeeker {
 }
 
 impl BookingFigures {
-    pub(super) fn update(&mut self, seekers: &[BallSeeker], threshold: Distance, now: f64, dt: f64) {
+    /// Of the robots in play with these numbers, `seekers` know the ball.
+    pub(super) fn update(
+        &mut self,
+        (in_play, seekers): (&[u8], &[BallSeeker]),
+        threshold: Distance,
+        now: f64,
+        dt: f64,
+    ) {
         let mut going = seekers.iter().filter(|seeker| seeker.goes);
         let first = going.next();
         let several = going.next().is_some();
@@ -44,8 +57,23 @@ impl BookingFigures {
         self.nobody_goes.update(first.is_none() && !seekers.is_empty(), dt);
         self.several_go.update(several, dt);
         self.farther_goes.update(!several && first.is_some_and(is_nearer), dt);
-        if let Some(booker) = first.filter(|_| !several) {
-            self.note_booker(booker.number, now);
+        let only = first.filter(|_| !several).map(|booker| booker.number);
+        self.note_replacement(in_play, seekers, only.is_some() || several, now);
+        self.only = only;
+        if let Some(booker) = only {
+            self.note_booker(booker, now);
+        }
+    }
+
+    fn note_replacement(&mut self, in_play: &[u8], seekers: &[BallSeeker], somebody_goes: bool, now: f64) {
+        if seekers.is_empty() {
+            return self.replacement.interrupt();
+        }
+        if self.only.is_some_and(|booker| !in_play.contains(&booker)) {
+            self.replacement.miss(now);
+        }
+        if somebody_goes {
+            self.replacement.go(now);
         }
     }
 
@@ -83,7 +111,7 @@ mod tests {
             &[],
         ];
         for (round, seekers) in rounds.into_iter().enumerate() {
-            figures.update(seekers, THRESHOLD, round as f64, 1.0);
+            figures.update((&[1, 2], seekers), THRESHOLD, round as f64, 1.0);
         }
         let total = |span: Span| span.total;
         assert_eq!(total(figures.farther_goes), 1.0);
@@ -95,8 +123,28 @@ mod tests {
     fn a_ball_that_comes_back_soon_has_alternated() {
         let mut figures = BookingFigures::default();
         for (now, number) in [(0.0, 1), (10.0, 2), (12.0, 1), (20.0, 2), (24.0, 1), (24.1, 1)] {
-            figures.update(&[seeker(number, 500, true)], THRESHOLD, now, 0.1);
+            figures.update((&[1, 2], &[seeker(number, 500, true)]), THRESHOLD, now, 0.1);
         }
         assert_eq!((figures.takeovers, figures.alternations), (4, 1));
+    }
+
+    /// What is in each tick: who is in play, and who knows the ball.
+    fn replacement(ticks: &[(&[u8], &[BallSeeker])]) -> (u32, f64) {
+        let mut figures = BookingFigures::default();
+        for (tick, both) in ticks.iter().enumerate() {
+            figures.update(*both, THRESHOLD, tick as f64, 1.0);
+        }
+        (figures.replacement.number, figures.replacement.seconds)
+    }
+
+    #[test]
+    fn a_booker_that_goes_out_of_play_is_replaced_when_another_goes() {
+        let (goes, waits) = (seeker(2, 500, true), seeker(2, 500, false));
+        let booker: (&[u8], &[BallSeeker]) = (&[1, 2], &[seeker(1, 300, true), waits]);
+        let (both, alone): (&[u8], &[u8]) = (&[1, 2], &[2]);
+        assert_eq!(replacement(&[booker, (alone, &[waits]), (alone, &[waits]), (alone, &[goes])]), (1, 2.0));
+        assert_eq!(replacement(&[booker, (alone, &[goes])]), (1, 0.0));
+        assert_eq!(replacement(&[booker, (both, &[waits]), (both, &[goes])]), (0, 0.0), "it is there");
+        assert_eq!(replacement(&[booker, (alone, &[]), (alone, &[goes])]), (0, 0.0), "nobody knew the ball");
     }
 }

@@ -7,6 +7,7 @@ use super::contacts::RobotContacts;
 use super::crowding::Crowding;
 use super::holds::HoldFigures;
 use super::kicks::{GripFigures, KickFigures, count_falls};
+use super::localisation::Localisation;
 use super::loose_balls::LooseBalls;
 use super::overlap::BallOverlap;
 use super::places::PlaceFigures;
@@ -33,6 +34,8 @@ pub struct Record {
     pub pursuit: [Pursuit; 2],
     /// How well each team's ball booking has worked, told from what its robots believe.
     pub bookings: [BookingFigures; 2],
+    /// How well each team's robots knew their places.
+    pub localisation: [Localisation; 2],
     /// Who touched whom.
     pub contacts: RobotContacts,
     /// Balls that nobody touched, and who won them.
@@ -45,6 +48,8 @@ pub struct Record {
     pub falls: [u32; 2],
     /// Whom the referee took off, and why.
     pub removals: Removals,
+    /// How often the referee put the ball elsewhere, or gave a kick-off, since nothing came of play.
+    pub no_progress: u32,
     /// How long robots kept their roles, by index.
     pub roles: [HoldFigures<usize>; 2],
     /// For how long roles had nobody, or more robots than they should.
@@ -73,12 +78,14 @@ impl Record {
             places: PlaceFigures::default(),
             pursuit: Default::default(),
             bookings: [BookingFigures::default(); 2],
+            localisation: Default::default(),
             contacts: RobotContacts::default(),
             loose_balls: LooseBalls::default(),
             kicks: Default::default(),
             grips: Default::default(),
             falls: [0; 2],
             removals: Removals::default(),
+            no_progress: 0,
             roles: Default::default(),
             role_cover: Default::default(),
             states: Default::default(),
@@ -121,6 +128,7 @@ impl Record {
         self.roles.iter_mut().for_each(HoldFigures::interrupt);
         self.states.iter_mut().for_each(HoldFigures::interrupt);
         self.role_cover.iter_mut().for_each(RoleCover::interrupt);
+        self.localisation.iter_mut().for_each(Localisation::interrupt);
     }
 
     fn note_possession(&mut self, tick: &PlayTick) {

@@ -6,7 +6,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use crate::geometry::{Attacking, Pose, Twist};
+use crate::geometry::{Attacking, Pose, Twist, Zone};
 use crate::ids::{RobotId, Team};
 use crate::robot::handling::Handling;
 use crate::robot::{DriveCommand, OffPitch, Orders, Robot, RobotState};
@@ -24,6 +24,8 @@ pub(super) struct PlayTick {
     pub ball: Vec2,
     /// Where home's goal to attack is.
     pub home_attacks: Attacking,
+    /// A team's own penalty area, in its frame.
+    pub own_area: Zone,
     pub ball_velocity: Vec2,
     /// Whether the referee has put the ball somewhere.
     pub ball_is_put: bool,
@@ -61,13 +63,18 @@ pub(super) struct PlayerTick {
 }
 
 impl PlayTick {
-    /// How far a point is from the centre towards the goal that a team attacks, m.
-    pub fn ahead(&self, team: Team, point: Vec2) -> f32 {
-        let home = self.home_attacks.turn(point).x;
+    /// A point in the frame of a team.
+    pub fn seen_by(&self, team: Team, point: Vec2) -> Vec2 {
+        let home = self.home_attacks.turn(point);
         match team {
             Team::Home => home,
             Team::Away => -home,
         }
+    }
+
+    /// How far a point is from the centre towards the goal that a team attacks, m.
+    pub fn ahead(&self, team: Team, point: Vec2) -> f32 {
+        self.seen_by(team, point).x
     }
 
     /// The robots of a team that are on the pitch.

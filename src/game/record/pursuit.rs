@@ -77,7 +77,7 @@ impl Pursuit {
             self.replacement.miss(tick.now);
         }
         if going > 0 {
-            self.replacement.drive(tick.now);
+            self.replacement.go(tick.now);
         }
         let only = goer.filter(|_| going == 1);
         self.nobody.update(going == 0, tick.dt);

@@ -1,11 +1,11 @@
-//! How soon a robot that drove at the ball and went out of play is replaced.
+//! How soon a robot that went for the ball and then out of play is replaced.
 
 use serde::Serialize;
 
-/// How long nobody of a team drove at the ball after the only robot that did went out of play: switched off, broken or taken off.
+/// How long nobody of a team went for the ball after the only robot that did went out of play: switched off, broken or taken off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Replacement {
-    /// How often one of the team drove at the ball again, before play was interrupted.
+    /// How often one of the team went for the ball again, before play was interrupted.
     pub number: u32,
     /// How long that took in all, s.
     pub seconds: f64,
@@ -17,13 +17,13 @@ pub struct Replacement {
 }
 
 impl Replacement {
-    /// The only robot that drove at the ball has gone.
+    /// The only robot that went for the ball is out of play.
     pub(super) fn miss(&mut self, now: f64) {
         self.since = Some(now);
     }
 
-    /// Somebody drives at the ball.
-    pub(super) fn drive(&mut self, now: f64) {
+    /// Somebody goes for the ball.
+    pub(super) fn go(&mut self, now: f64) {
         if let Some(since) = self.since.take() {
             self.number += 1;
             self.seconds += now - since;

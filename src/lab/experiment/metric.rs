@@ -3,7 +3,7 @@
 use bevy::prelude::World;
 use serde::{Deserialize, Serialize};
 
-use crate::comms::radio::{LinkCounters, RadioRecord};
+use crate::comms::radio::{LinkCounters, Loss, RadioRecord};
 use crate::game::Match;
 use crate::game::record::{AGGLOMERATION, CROWD, Invariants, Record};
 use crate::ids::{RobotId, Team};
@@ -29,6 +29,8 @@ pub struct MatchFigures<'a> {
 struct SwapFigures {
     begun: f64,
     completed: f64,
+    without_locks: f64,
+    without_acks: f64,
     /// Of those that were completed, in ticks.
     ticks: f64,
 }
@@ -65,6 +67,12 @@ impl<'a> MatchFigures<'a> {
         own.map(|(_, count)| f64::from(count.times)).sum()
     }
 
+    /// Of the packets that a team sent, the share that was lost to a cause.
+    fn lost_to(&self, team: Team, cause: Loss) -> f64 {
+        let sent = self.sent_by(team);
+        ratio(count(sent.lost[cause.index()]), count(sent.sent))
+    }
+
     fn removed(&self, team: Team, reason: RemovalReason) -> f64 {
         self.record.removals.count(reason)[team.index()].into()
     }
@@ -84,10 +92,12 @@ fn swaps(world: &World) -> [SwapFigures; 2] {
     let mut swaps = [SwapFigures::default(); 2];
     if let Some(mut robots) = world.try_query::<(&RobotId, &Swapping)>() {
         for (id, swapping) in robots.iter(world) {
-            let (SwapAttempts { begun, completed, ticks, .. }, of) =
-                (swapping.attempts, &mut swaps[id.team.index()]);
+            let SwapAttempts { begun, completed, without_locks, without_acks, ticks, .. } = swapping.attempts;
+            let of = &mut swaps[id.team.index()];
             of.begun += f64::from(begun);
             of.completed += f64::from(completed);
+            of.without_locks += f64::from(without_locks);
+            of.without_acks += f64::from(without_acks);
             of.ticks += count(ticks);
         }
     }
@@ -156,10 +166,16 @@ metrics! {
     };
     Undefended "undefended" [""] "Share of play in which fewer than two of its robots were on their goal's side of the ball." (m, team)
         m.share(m.record.places.undefended(team));
+    GoalUnguarded "goal_unguarded" [""] "Share of play in which none of its robots was on their goal's side of the ball." (m, team)
+        m.share(m.record.places.unguarded(team));
+    TwoInArea "two_in_area" [""] "Share of play with two or more of its robots in their own penalty area." (m, team)
+        m.share(m.record.places.two_in_area(team));
     Crowding "crowding" [""] "Share of play with two or more of its robots within a metre of the ball." (m, team)
         m.share(m.record.crowding.seconds(CROWD)[team.index()]);
     Agglomeration "agglomeration" [""] "Share of play with two or more of its robots within half a metre of the ball." (m, team)
         m.share(m.record.crowding.seconds(AGGLOMERATION)[team.index()]);
+    NearBall "near_ball" [""] "How many of its robots were within a metre of the ball in the mean." (m, team)
+        m.share(m.record.places.near_ball(team));
     MateDistance "mate_distance" ["m"] "How far its robots were from their nearest team mate in the mean." (m, team)
         m.record.places.mate_distance(team);
     MateContacts "mate_contacts" ["1/min"] "How often two of its robots touched, for a minute of play." (m, team)
@@ -172,6 +188,8 @@ metrics! {
         m.share(m.record.pursuit[team.index()].nobody.total);
     NobodyDrivesLongest "nobody_drives_longest" ["s"] "Longest time in which none of its robots drove at the ball." (m, team)
         m.record.pursuit[team.index()].nobody.longest;
+    OneDrives "one_drives" [""] "Share of play in which exactly one of its robots drove at the ball." (m, team)
+        m.share(m.record.pursuit[team.index()].one.total);
     SeveralDrive "several_drive" [""] "Share of play in which two or more of its robots drove at the ball." (m, team)
         m.share(m.record.pursuit[team.index()].several.total);
     FartherDrives "farther_drives" [""] "Share of play in which one robot drove at the ball while a mate was nearer." (m, team)
@@ -184,14 +202,36 @@ metrics! {
         let replacement = &m.record.pursuit[team.index()].replacement;
         some_ratio(replacement.seconds, replacement.number.into())
     };
+    ReplacementTimeLongest "replacement_time_longest" ["s"] "The longest of these times." (m, team) {
+        let replacement = &m.record.pursuit[team.index()].replacement;
+        (replacement.number > 0).then_some(replacement.longest)
+    };
     BelievedNobody "believed_nobody" [""] "Share of play in which a robot of a booking team knew the ball and none believed to go." (m, team)
         m.share(m.record.bookings[team.index()].nobody_goes.total);
     BelievedNobodyLongest "believed_nobody_longest" ["s"] "Longest time in which a robot knew the ball and none believed to go." (m, team)
         m.record.bookings[team.index()].nobody_goes.longest;
+    BookerReplacementTime "booker_replacement_time" ["s"] "How long nobody went, in the robots' eyes, after the only one that did was switched off or taken off and another knew the ball." (m, team) {
+        let replacement = &m.record.bookings[team.index()].replacement;
+        some_ratio(replacement.seconds, replacement.number.into())
+    };
+    BookerReplacementTimeLongest "booker_replacement_time_longest" ["s"] "The longest of these times." (m, team) {
+        let replacement = &m.record.bookings[team.index()].replacement;
+        (replacement.number > 0).then_some(replacement.longest)
+    };
     BelievedSeveral "believed_several" [""] "Share of play in which several robots of a booking team believed to go." (m, team)
         m.share(m.record.bookings[team.index()].several_go.total);
     LooseBallsWon "loose_balls_won" ["1/min"] "Balls that nobody had touched for a second and that it got, for a minute." (m, team)
         m.per_minute(m.record.loose_balls.won[team.index()]);
+    PlaceLost "place_lost" [""] "Share of its robots' time of play in which they were over 0.5 m from where they believed to be." (m, team) {
+        let localisation = &m.record.localisation[team.index()];
+        ratio(localisation.lost, localisation.robots)
+    };
+    PlaceRecoveries "place_recoveries" ["1/min"] "How often one came to within 0.25 m of it again, for a minute of play." (m, team)
+        m.per_minute(m.record.localisation[team.index()].recoveries);
+    PlaceRecoveryTime "place_recovery_time" ["s"] "How long that took in the mean, as after a kidnapping." (m, team) {
+        let localisation = &m.record.localisation[team.index()];
+        some_ratio(localisation.recovering, localisation.recoveries.into())
+    };
     KicksTried "kicks_tried" ["1/min"] "Kicks that it began, for a minute of play." (m, team)
         m.per_minute(m.record.kicks[team.index()].tried);
     KicksStruck "kicks_struck" ["1/min"] "Kicks that met the ball, for a minute of play." (m, team)
@@ -220,7 +260,11 @@ metrics! {
         m.per_minute(m.swaps[team.index()].begun);
     SwapsCompleted "swaps_completed" [""] "Share of them that their initiators saw acknowledged by all." (m, team)
         some_ratio(m.swaps[team.index()].completed, m.swaps[team.index()].begun);
-    SwapTime "swap_time" ["s"] "How long those took in the mean, from the first LOCK to the last ACKSWAP." (m, team)
+    SwapsWithoutLocks "swaps_without_locks" [""] "Share of them in which not everybody's lock came in time." (m, team)
+        some_ratio(m.swaps[team.index()].without_locks, m.swaps[team.index()].begun);
+    SwapsWithoutAcks "swaps_without_acks" [""] "Share of them in which all were locked and not every new role was acknowledged in time." (m, team)
+        some_ratio(m.swaps[team.index()].without_acks, m.swaps[team.index()].begun);
+    SwapTime "swap_time" ["s"] "How long the completed ones took in the mean, from the first LOCK to the last ACKSWAP." (m, team)
         some_ratio(m.swaps[team.index()].ticks * m.dt, m.swaps[team.index()].completed);
     InvariantsBroken "invariants_broken" [""] "How often something did not hold for too long that must hold of every match." (m, team)
         m.broken(team);
@@ -236,10 +280,25 @@ metrics! {
         ratio(count(m.sent_by(team).delivered), count(m.sent_by(team).sent));
     PacketsLost "packets_lost" [""] "Share of its packets that were lost." (m, team)
         ratio(count(m.sent_by(team).lost_in_all()), count(m.sent_by(team).sent));
+    LostToChance "lost_to_chance" [""] "Share of its packets that were lost to the radio's own loss." (m, team)
+        m.lost_to(team, Loss::Chance);
+    LostToInterference "lost_to_interference" [""] "Share of its packets that were lost to interference or a jammed band." (m, team)
+        m.lost_to(team, Loss::Extra) + m.lost_to(team, Loss::Jammed);
+    LostOnAir "lost_on_air" [""] "Share of its packets that were lost to others on the channel that all share." (m, team)
+        m.lost_to(team, Loss::Air);
+    LostToRange "lost_to_range" [""] "Share of its packets that were lost since the receiver was too far away." (m, team)
+        m.lost_to(team, Loss::Range);
+    LostToBudget "lost_to_budget" [""] "Share of its packets that were not sent since the radio's budget was used up." (m, team)
+        m.lost_to(team, Loss::Budget);
+    LostToFaults "lost_to_faults" [""] "Share of its packets that were lost to faults of robots or links: mute, deaf, cut off, by rule." (m, team) {
+        [Loss::Mute, Loss::Deaf, Loss::CutOff, Loss::Fault].map(|cause| m.lost_to(team, cause)).iter().sum::<f64>()
+    };
     PacketsLate "packets_late" [""] "Share of its packets that took longer than the radio's ordinary delay." (m, team)
         ratio(count(m.sent_by(team).late), count(m.sent_by(team).sent));
     BytesSent "bytes_sent" ["B/s"] "Bytes of the packets that it sent, for a second of play." (m, team)
         m.share(count(m.sent_by(team).bytes));
+    NoProgress "no_progress" ["1/min"] "How often the referee began anew since nothing came of play, for a minute." (m, _team)
+        m.per_minute(m.record.no_progress);
     SecondDefenders "second_defenders" [""] "Robots taken off for staying in their own area beside a mate." (m, team)
         m.removed(team, RemovalReason::SecondDefender);
     IllegalDefenders "illegal_defenders" [""] "Robots taken off for being in their own area." (m, team)

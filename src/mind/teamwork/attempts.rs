@@ -9,7 +9,11 @@ pub struct SwapAttempts {
     pub begun: u32,
     /// Those in which all acknowledged their new roles, as far as the initiator knows.
     pub completed: u32,
-    /// How long those took in all, from the first LOCK to the last ACKSWAP, in ticks.
+    /// Those that ended since not everybody's lock came in time.
+    pub without_locks: u32,
+    /// Those that ended since not every acknowledgement of a new role came in time.
+    pub without_acks: u32,
+    /// How long those that were completed took in all, from the first LOCK to the last ACKSWAP, in ticks.
     pub ticks: u64,
     /// When the attempt that goes on began, in ticks.
     since: Option<u64>,
@@ -23,9 +27,14 @@ impl SwapAttempts {
 
     pub(super) fn finish(&mut self, outcome: Outcome, tick: u64) {
         let Some(since) = self.since.take() else { return };
-        if outcome == Outcome::Completed {
-            self.completed += 1;
-            self.ticks += tick - since;
+        match outcome {
+            Outcome::Completed => {
+                self.completed += 1;
+                self.ticks += tick - since;
+            }
+            Outcome::LocksMissing => self.without_locks += 1,
+            Outcome::AcksMissing => self.without_acks += 1,
+            Outcome::Overtaken => {}
         }
     }
 
@@ -49,7 +58,7 @@ mod tests {
         attempts.begin(100);
         attempts.give_up();
         attempts.finish(Outcome::Completed, 500);
-        let SwapAttempts { begun, completed, ticks, .. } = attempts;
-        assert_eq!((begun, completed, ticks), (3, 1, 7));
+        let SwapAttempts { begun, completed, without_locks, without_acks, ticks, .. } = attempts;
+        assert_eq!((begun, completed, without_locks, without_acks, ticks), (3, 1, 1, 0, 7));
     }
 }

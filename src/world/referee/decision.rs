@@ -98,6 +98,16 @@ pub enum Decision {
     MatchFinished { score: [u32; 2] },
 }
 
+impl Decision {
+    /// Whether it ends a time in which play came to nothing: a ball that was stuck, or that nobody touched.
+    pub fn ends_no_progress(&self) -> bool {
+        matches!(
+            self,
+            Decision::Untouched { .. } | Decision::BallPlaced { reason: PlacementReason::NoProgress, .. }
+        )
+    }
+}
+
 impl fmt::Display for Decision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
