@@ -12,7 +12,7 @@ use crate::rng::{DEFAULT_SEED, Seed};
 /// What the rows say of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ClaimVerdict {
-    /// The whole interval of the difference lies on the side that the claim names.
+    /// The whole interval lies on the side, or in the range, that the claim names.
     Held,
     /// The whole interval lies where the claim says that it does not.
     DidNotHold,
@@ -38,9 +38,9 @@ pub struct JudgedClaim {
     pub claim: StatedClaim,
     /// What the rows say.
     pub verdict: ClaimVerdict,
-    /// By how much the treatment of the claim has more than the other with the same seeds.
+    /// By how much the treatment of the claim has more than the other with the same seeds, or than nothing if it is compared with none.
     pub difference: Option<PairedDifference>,
-    /// In which the true difference lies: that of the bootstrap, or that of two one-sided t tests if the claim says that there is
+    /// In which the true mean of it lies: that of the bootstrap, or that of two one-sided t tests if the claim says that there is
     /// hardly any. The verdict rests on it.
     pub interval: Option<Interval>,
 }
@@ -49,12 +49,13 @@ impl JudgedClaim {
     /// Why the verdict is what it is.
     pub fn reason(&self) -> String {
         let Some(difference) = &self.difference else {
-            return "no seed was played with both".into();
+            return "no seed has a value".into();
         };
         let mean = MeanWithInterval { value: Some(difference.mean), interval: self.interval };
         let unit = self.claim.metric.unit();
         let space = if unit.is_empty() { "" } else { " " };
-        let said = format!("{mean:+}{space}{unit} with {} seeds", difference.pairs);
+        let mean = if self.claim.than.is_empty() { format!("{mean}") } else { format!("{mean:+}") };
+        let said = format!("{mean}{space}{unit} with {} seeds", difference.pairs);
         let Some(interval) = self.interval else {
             return format!("{said}: they are too few or too even to tell the spread");
         };
@@ -72,6 +73,15 @@ fn where_it_lies(is: ClaimedDifference, interval: Interval, difference: &PairedD
         }
         (ClaimedDifference::Within(margin), ClaimVerdict::CannotBeSaid) => {
             format!("the interval goes beyond {margin}")
+        }
+        (ClaimedDifference::Between(low, high), ClaimVerdict::Held) => {
+            format!("all of the interval is between {low} and {high}")
+        }
+        (ClaimedDifference::Between(low, high), ClaimVerdict::DidNotHold) => {
+            format!("none of the interval is between {low} and {high}")
+        }
+        (ClaimedDifference::Between(low, high), ClaimVerdict::CannotBeSaid) => {
+            format!("a part of the interval is between {low} and {high}")
         }
         _ if interval.high < 0.0 => "all of the interval is below 0".into(),
         _ if interval.low > 0.0 => "all of the interval is above 0".into(),
@@ -91,7 +101,8 @@ pub(super) fn judge_claims(plan: &ExperimentPlan, rows: &PairedRows, confidence:
         let treatments = [&claim.of, &claim.than].map(|levels| plan.file.treatment(levels));
         let pairs = match treatments {
             [Some(of), Some(than)] => rows.differences([of, than], claim.metric),
-            _ => Vec::new(),
+            [Some(of), None] => rows.values(of, claim.metric).into_values().collect(),
+            [None, _] => Vec::new(),
         };
         judged(claim, &pairs, confidence)
     };
@@ -120,16 +131,16 @@ pub(in crate::lab) fn telling(pairs: usize, interval: Option<Interval>) -> Optio
 pub(in crate::lab) fn verdict(is: ClaimedDifference, interval: Option<Interval>) -> ClaimVerdict {
     let Some(interval) = interval else { return ClaimVerdict::CannotBeSaid };
     let (less, more) = (interval.high < 0.0, interval.low > 0.0);
+    let is_within = |low: f64, high: f64| low < interval.low && interval.high < high;
+    let is_outside = |low: f64, high: f64| interval.high < low || high < interval.low;
     match is {
         ClaimedDifference::Less if less => ClaimVerdict::Held,
         ClaimedDifference::More if more => ClaimVerdict::Held,
         ClaimedDifference::Less | ClaimedDifference::More if less || more => ClaimVerdict::DidNotHold,
-        ClaimedDifference::Within(margin) if -margin < interval.low && interval.high < margin => {
-            ClaimVerdict::Held
-        }
-        ClaimedDifference::Within(margin) if interval.high < -margin || margin < interval.low => {
-            ClaimVerdict::DidNotHold
-        }
+        ClaimedDifference::Within(margin) if is_within(-margin, margin) => ClaimVerdict::Held,
+        ClaimedDifference::Within(margin) if is_outside(-margin, margin) => ClaimVerdict::DidNotHold,
+        ClaimedDifference::Between(low, high) if is_within(low, high) => ClaimVerdict::Held,
+        ClaimedDifference::Between(low, high) if is_outside(low, high) => ClaimVerdict::DidNotHold,
         _ => ClaimVerdict::CannotBeSaid,
     }
 }
@@ -148,7 +159,7 @@ mod tests {
             source: "ours".into(),
             metric: Metric::Driven,
             of: Vec::new(),
-            than: Vec::new(),
+            than: vec!["another".into()],
             is,
         };
         judged(&claim, differences, 0.95)
@@ -185,6 +196,16 @@ mod tests {
     }
 
     #[test]
+    fn a_mean_is_between_two_numbers_only_where_all_of_its_interval_is() {
+        use ClaimedDifference::Between;
+        assert_eq!(verdict_on(Between(-1.5, -0.5), &CLEAR), ClaimVerdict::Held);
+        assert_eq!(verdict_on(Between(0.5, 1.5), &CLEAR), ClaimVerdict::DidNotHold);
+        assert_eq!(verdict_on(Between(-1.0, 1.0), &CLEAR), ClaimVerdict::CannotBeSaid);
+        let reason = judge(Between(-1.5, -0.5), &CLEAR).reason();
+        assert!(reason.ends_with("all of the interval is between -1.5 and -0.5"), "{reason}");
+    }
+
+    #[test]
     fn a_verdict_says_why() {
         use ClaimedDifference::Less;
         let held = judge(Less, &CLEAR).reason();
@@ -196,6 +217,6 @@ mod tests {
             "{unclear}"
         );
         assert!(judge(Less, &[-1.0; 9]).reason().ends_with("too even to tell the spread"));
-        assert_eq!(judge(Less, &[]).reason(), "no seed was played with both");
+        assert_eq!(judge(Less, &[]).reason(), "no seed has a value");
     }
 }

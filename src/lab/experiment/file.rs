@@ -41,7 +41,7 @@ pub struct ExperimentFile {
     pub claims: Vec<StatedClaim>,
 }
 
-/// A sentence that says of two treatments which has more of something.
+/// A sentence that says of two treatments which has more of something, or of one how much it has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatedClaim {
@@ -53,7 +53,8 @@ pub struct StatedClaim {
     pub metric: Metric,
     /// The levels of the treatment that it speaks of, one for each factor.
     pub of: Vec<String>,
-    /// Those of the treatment that it is compared with.
+    /// Those of the treatment that it is compared with; none if it says how much there is.
+    #[serde(default)]
     pub than: Vec<String>,
     /// Which way it goes.
     pub is: ClaimedDifference,
@@ -68,6 +69,8 @@ pub enum ClaimedDifference {
     More,
     /// They differ by less than this, in the unit of the metric.
     Within(f64),
+    /// The treatment, which is compared with none, has between so much and so much in the mean, in the unit of the metric.
+    Between(f64, f64),
 }
 
 fn yes() -> bool {
@@ -274,11 +277,25 @@ impl Validate for ExperimentFile {
         }
         check_count("factors", "the number of treatments", self.treatments(), 1..=TREATMENTS)?;
         for (place, claim) in self.claims.iter().enumerate() {
-            if let ClaimedDifference::Within(margin) = claim.is {
-                check_width(&format!("claims.{place}.is.Within"), margin)?;
-            }
-            for (field, levels) in [("of", &claim.of), ("than", &claim.than)] {
-                let at = format!("claims.{place}.{field}");
+            let at = format!("claims.{place}");
+            let treatments: &[_] = match claim.is {
+                ClaimedDifference::Between(low, high) => {
+                    check_range(&format!("{at}.is.Between"), low, high)?;
+                    ensure(claim.than.is_empty(), &format!("{at}.than"), || {
+                        "is not there in a claim of how much there is".into()
+                    })?;
+                    &[("of", &claim.of)]
+                }
+                ClaimedDifference::Within(margin) => {
+                    check_width(&format!("{at}.is.Within"), margin)?;
+                    &[("of", &claim.of), ("than", &claim.than)]
+                }
+                ClaimedDifference::Less | ClaimedDifference::More => {
+                    &[("of", &claim.of), ("than", &claim.than)]
+                }
+            };
+            for (field, levels) in treatments {
+                let at = format!("{at}.{field}");
                 ensure(self.treatment(levels).is_some(), &at, || {
                     "must be a level of each factor, in their order".into()
                 })?;
@@ -302,6 +319,12 @@ impl Validate for UntilRule {
 fn check_width(field: &str, width: f64) -> Result<(), Fault> {
     ensure(width > 0.0, field, || format!("must be positive, not {width:?}"))?;
     Bound::ANY.check(field, width as f32)
+}
+
+fn check_range(field: &str, low: f64, high: f64) -> Result<(), Fault> {
+    Bound::ANY.check(&format!("{field}.0"), low as f32)?;
+    Bound::ANY.check(&format!("{field}.1"), high as f32)?;
+    ensure(low < high, field, || format!("must begin below its end, not ({low:?}, {high:?})"))
 }
 
 impl Validate for Factor {

@@ -13,6 +13,7 @@ mod markdown;
 mod metric_title;
 mod overview;
 mod plot;
+mod seeds_needed;
 
 pub use chapter::chapter_head;
 pub use document::{ReportBlock, ReportDocument, ReportPlot, ReportTable};

@@ -2,6 +2,7 @@
 
 use super::document::{ReportBlock, ReportTable, cells};
 use super::evaluated::Evaluated;
+use super::seeds_needed;
 use crate::lab::experiment::JudgedClaim;
 
 const ABOUT: &str = "Touchline plays robot soccer between teams of behaviour-based robots that talk over a bad radio. A chapter is an \
@@ -41,6 +42,7 @@ pub(super) fn blocks(experiments: &[Evaluated], command: &str) -> Vec<ReportBloc
         blocks.push(ReportBlock::Text(VERDICTS.into()));
         blocks.push(ReportBlock::Table(claim_table(&experiments)));
     }
+    blocks.extend(seeds_needed::blocks(&experiments));
     blocks.push(ReportBlock::Chapter("How to read the figures".into()));
     blocks.push(ReportBlock::Items(cells(HOW_TO_READ)));
     blocks
@@ -61,7 +63,7 @@ fn row(judged: &JudgedClaim) -> Vec<String> {
     vec![
         claim.says.clone(),
         claim.source.clone(),
-        format!("{figure}: {of} against {than}"),
+        if than.is_empty() { format!("{figure}: {of}") } else { format!("{figure}: {of} against {than}") },
         verdict,
         judged.reason(),
     ]

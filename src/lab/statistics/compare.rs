@@ -52,7 +52,11 @@ pub fn compare_pairs(differences: &[f64], confidence: f64, seed: Seed) -> Option
         cohens_d_z: cohens_d_z(differences),
         rank_biserial: rank_biserial(differences),
         improvement,
-        pairs_until_shown: walsh_share(differences)
-            .and_then(|share| pairs_until_wilcoxon_shows(share, POWER, confidence)),
+        pairs_until_shown: pairs_until_shown(differences, confidence),
     })
+}
+
+/// How many pairs show a difference by Wilcoxon's test in nine cases of ten, if the truth is as these differences.
+pub fn pairs_until_shown(differences: &[f64], confidence: f64) -> Option<u32> {
+    walsh_share(differences).and_then(|share| pairs_until_wilcoxon_shows(share, POWER, confidence))
 }

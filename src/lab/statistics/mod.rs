@@ -21,7 +21,7 @@ mod until_width;
 
 pub use average::{SampleMoments, mean, mean_interval, median};
 pub use bootstrap::{RESAMPLES, bca_interval, percentile_interval, resampled};
-pub use compare::{PairedDifference, compare_pairs};
+pub use compare::{PairedDifference, compare_pairs, pairs_until_shown};
 pub use effect::{cohens_d_z, rank_biserial};
 pub use equivalence::{Equivalence, equivalence};
 pub use improvement::{Improvement, improvement_of_pairs, improvement_of_samples};
