@@ -4,15 +4,17 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 use touchline::data::{AssetKind, Source};
+use touchline::game::record::Invariants;
 use touchline::game::{Match, MatchPlan};
 use touchline::geometry::Pose;
 use touchline::ids::RobotId;
 use touchline::mind::world_model::WorldModel;
 use touchline::pitch::Pitch;
 use touchline::robot::{OffPitch, Robot, Sensing, SteeringIntent};
+use touchline::strategy::Strategy;
 use touchline::world::referee::Phase;
 
-use crate::support::{assets, ball, friendly};
+use crate::support::{assets, ball, friendly, strategy_text};
 
 /// What was noticed about a match.
 struct Noticed {
@@ -106,4 +108,31 @@ fn perfect_sensing_is_a_switch() {
         }
     }
     assert!(checked > 1000);
+}
+
+#[test]
+fn teams_of_eleven_play() {
+    let (path, text) = strategy_text("ball_chasers");
+    let four = r#"["front_left", "back_left", "back_right", "front_right"]"#;
+    let names = ["front_left", "back_left", "back_right", "front_right"].iter().cycle().take(11);
+    let place = |i: u32| format!("({:?}, {:?})", -1.0 - f64::from(i / 4), 1.6 - f64::from(i % 4));
+    let places = format!("[{}]", (0..11).map(place).collect::<Vec<_>>().join(", "));
+    let kick_off = text.find("ours: [").and_then(|from| Some(from..from + text[from..].find("features:")?));
+    let kick_off = kick_off.expect("it has a kick-off");
+    let text = text.replacen(&text[kick_off], &format!("ours: {places}, theirs: {places}), "), 1);
+    let text = text.replacen(four, &format!("{:?}", names.collect::<Vec<_>>()), 1);
+    let strategy =
+        Arc::new(Strategy::parse(&assets(), &Source::new(path, text), None).expect("eleven are allowed"));
+    let mut plan = friendly(1, 0.5);
+    for team in &mut plan.teams {
+        team.strategy = strategy.clone();
+    }
+    assert_eq!(plan.robots().count(), 22);
+    let mut game = Match::new(&plan);
+    while !game.is_over() {
+        game.tick();
+    }
+    let driven = &game.record().driven;
+    assert!(driven.len() == 22 && driven.iter().all(|(_, way)| *way > 0.5), "{driven:?}");
+    assert!(game.world().resource::<Invariants>().broken.is_empty());
 }

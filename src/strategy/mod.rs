@@ -33,6 +33,7 @@ pub use pieces::{
     Play, RoleSpec, State, StateRef, Strategy, SubRole, Term, Transition, Turn,
 };
 pub use reading::{StrategyReading, StrategyTexts, TeamworkChange};
+pub use resolve::MAX_PLAYERS;
 pub use role::{Role, RoleRef};
 
 /// The strategies of a match, home first. They change only in the Script stage.

@@ -4,6 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use touchline::data::{AssetKind, Source};
+use touchline::lab::experiment::{DesignChange, ExperimentFile, FactorLevels, SeedBlocks};
+use touchline::rng::{Dice, Seed};
+
 use super::{text, touchline};
 use crate::support::assets;
 
@@ -186,6 +190,12 @@ fn what_belongs_to_another_experiment_or_other_files_is_refused_and_stays_as_it_
     assert_eq!(stage.table("out"), before);
 }
 
+/// A claim of what is lost, in a design.
+fn claimed(is: &str, than: &str) -> String {
+    let claim = format!(r#"(says: "a", source: "b", metric: PacketsLost, of: ["0"], {than}is: {is})"#);
+    format!("metrics: [PacketsLost], claims: [{claim}]")
+}
+
 #[test]
 fn a_design_that_cannot_be_is_refused_in_a_line_that_names_the_place() {
     for (was, is, named) in [
@@ -202,6 +212,13 @@ fn a_design_that_cannot_be_is_refused_in_a_line_that_names_the_place() {
             "common[0].Number.file: makes no difference to any match",
         ),
         ("HalfMinutes(0.1)", "Event(at: 3, what: Crash(\"home 9\"))", "home 9"),
+        (
+            "metrics: [PacketsLost]",
+            &claimed("Between(0.5, 0.1)", ""),
+            "must begin below its end, not (0.5, 0.1)",
+        ),
+        ("metrics: [PacketsLost]", &claimed("Between(0.1, 0.5)", "than: [\"0\"], "), "claims[0].than"),
+        ("metrics: [PacketsLost]", &claimed("Less", ""), "claims[0].than: must be a level of each factor"),
     ] {
         let design = DESIGN.replace(was, is);
         assert_ne!(design, DESIGN);
@@ -217,8 +234,6 @@ fn a_design_that_cannot_be_is_refused_in_a_line_that_names_the_place() {
 
 #[test]
 fn every_shipped_experiment_can_be_played() {
-    use touchline::data::{AssetKind, Source};
-    use touchline::lab::experiment::{DesignChange, ExperimentFile, SeedBlocks};
     for path in assets().files(AssetKind::Experiment).expect("there are some") {
         let source = Source::read(&path).expect("it can be read");
         let mut design: ExperimentFile = source.parse_sound().expect("it is sound");
@@ -232,6 +247,7 @@ fn every_shipped_experiment_can_be_played() {
             });
         }
         (design.until, design.blocks) = (None, SeedBlocks { first: 3, number: 1 });
+        soon(&mut design);
         let stage =
             Stage::new(&touchline::data::ron_options().to_string(&design).expect("it can be written"));
         let said = stage.play("out", &[]);
@@ -239,5 +255,43 @@ fn every_shipped_experiment_can_be_played() {
         assert_eq!(column(&table, "row").len(), 2 * design.treatments(), "{}", path.display());
         assert!(column(&table, "error").iter().all(|error| error.is_empty()), "{table}");
         assert_eq!(said.matches(", 1 seeds").count(), design.treatments(), "{said}");
+        let row = any_row(&table);
+        let said = stage.play("out", &["--row", &row]);
+        assert!(said.contains("the match is as it is in"), "{}, row {row}: {said}", path.display());
     }
+}
+
+/// What happens in minutes happens in seconds, before a miniature is over.
+fn soon(design: &mut ExperimentFile) {
+    for factor in &mut design.factors {
+        let FactorLevels::Named(levels) = &mut factor.levels else { continue };
+        for change in levels.iter_mut().flat_map(|level| &mut level.changes) {
+            if let DesignChange::Event(event) = change {
+                event.at /= 100.0;
+            }
+        }
+    }
+}
+
+/// A row of a table, drawn by dice with the digest of its first match as their seed.
+fn any_row(table: &str) -> String {
+    let rows = column(table, "row");
+    let digest = column(table, "digest")[0];
+    let seed = Seed(u64::from_str_radix(digest, 16).expect("a digest is a number"));
+    rows[Dice::new(seed, "any row", None).below(rows.len())].to_owned()
+}
+
+#[test]
+fn a_design_that_stops_by_itself_plays_no_more_than_it_takes_and_goes_on_if_it_was_cut_off() {
+    let until = "until: Some(Width(metric: PacketsLost, confidence: 0.9, width: 0.9)), metrics:";
+    let design = DESIGN.replace("number: 2", "number: 99").replace("metrics:", until);
+    let stage = Stage::new(&design);
+    stage.play("out", &[]);
+    let whole = stage.table("out");
+    let seeds = column(&whole, "seed").len() / 4;
+    assert_eq!(seeds, 50, "the first look is enough");
+    let kept: usize = whole.split_inclusive('\n').take(4).map(str::len).sum();
+    fs::write(stage.path("out").join("rows.csv"), &whole[..kept]).expect("it is cut");
+    stage.play("out", &[]);
+    assert_eq!(stage.table("out"), whole);
 }

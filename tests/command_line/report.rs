@@ -9,9 +9,10 @@ use quick_xml::events::Event;
 use super::experiment::{DESIGN, Stage};
 use super::{program, text, touchline};
 
-/// A claim that nobody doubts, but for which two seeds are too few.
+/// Claims that nobody doubts, but for which two seeds are too few.
 const CLAIMED: &str = r#"metrics: [PacketsLost], claims: [
     (says: "Loss loses", source: "common sense", metric: PacketsLost, of: ["0.9"], than: ["0"], is: More),
+    (says: "The rest arrives", source: "common sense", metric: PacketsLost, of: ["0"], is: Between(0.001, 0.2)),
 ]"#;
 
 fn stage() -> Stage {
@@ -62,6 +63,7 @@ fn a_report_has_what_was_played_the_figures_and_the_verdicts() {
         "2 treatments with the seeds 5 to 6, each once more with the teams on each other's sides: 8 of 8 matches.",
         &format!("touchline experiment {0}/design.ron --out {0}\n", paths[0]),
         "| Loss loses | common sense | packets lost: 0.9 against 0 | cannot be said | +0.",
+        "| The rest arrives | common sense | packets lost: 0 | cannot be said | 0.",
         " with 2 seeds: they are too few or too even to tell the spread |",
         "### Packets lost",
         &format!("| 0 | 2 | {mean}] |"),

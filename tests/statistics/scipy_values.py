@@ -81,9 +81,11 @@ def bca(values, name, level):
     if not (np.isfinite(low) and np.isfinite(high)):
         return None
     ends = [np.quantile(resamples, float(np.squeeze(at))) for at in (low, high)]
+    tail = (1 - level) / 2
+    percentile = np.quantile(resamples, [tail, 1 - tail]).tolist()
     # As texts: readers of JSON may miss the last bit of a number, and resamples that are equal to the statistic count half.
     written = [repr(value) for value in resamples.tolist()]
-    return {"statistic": name, "level": level, "resamples": written, "low": ends[0], "high": ends[1]}
+    return {"statistic": name, "level": level, "resamples": written, "low": ends[0], "high": ends[1], "percentile": percentile}
 
 
 def equivalence(values, margin):
@@ -109,6 +111,19 @@ def newcombe(first, second, level):
     low = optimize.brentq(off, 0, share - 1e-9, (1,), xtol=1e-13) if share > 0 else 0.0
     high = optimize.brentq(off, share + 1e-9, 1, (-1,), xtol=1e-13) if share < 1 else 1.0
     return {"first": first, "second": second, "level": level, "share": share, "low": low, "high": high}
+
+
+def improvement_of_pairs(values, level):
+    """Wilson's interval by a root finder, with a draw as half a win."""
+    x = np.asarray(values, float)
+    share, z = ((x > 0).sum() + (x == 0).sum() / 2) / len(x), stats.norm.ppf(0.5 + level / 2)
+
+    def off(at, sign):
+        return at + sign * z * (at * (1 - at) / len(x)) ** 0.5 - share
+
+    low = optimize.brentq(off, 0, share - 1e-12, (1,), xtol=1e-14) if share > 0 else 0.0
+    high = optimize.brentq(off, share + 1e-12, 1, (-1,), xtol=1e-14) if share < 1 else 1.0
+    return {"level": level, "share": share, "low": low, "high": high}
 
 
 def proportions():
@@ -187,6 +202,7 @@ def main():
         case["signed_rank"] = signed_rank(values)
         case["equivalence"] = [equivalence(values, margin) for margin in (0.3, 1.0)]
         case["wilcoxon_pairs"] = [wilcoxon_pairs(values, power, level) for power, level in ((0.8, 0.95), (0.9, 0.99))]
+        case["improvement_of_pairs"] = [improvement_of_pairs(values, level) for level in (0.9, 0.95)]
         drawn = [bca(values, "mean", 0.95), bca(values, "median", 0.9)] if 3 <= len(values) <= 300 else []
         case["bca"] = [found for found in drawn if found]
         cases.append(case)

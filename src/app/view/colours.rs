@@ -5,6 +5,7 @@ use bevy_egui::egui;
 
 use crate::ids::Team;
 use crate::lab::export::palette;
+use crate::strategy::MAX_PLAYERS;
 use crate::strategy::language::SchemaKind;
 use crate::vision::ColourClass;
 
@@ -131,8 +132,10 @@ pub fn heat(share: f32) -> Color {
 
 /// The colour of a robot's number among its team mates, where it tells who has booked the ball.
 pub fn number(number: u8) -> Color {
-    const COLOURS: [u32; 8] =
-        [0x8E_B8_E5, 0xE6_E0_8A, 0x9C_CF_8E, 0xC9_A2_7E, 0xB7_A3_E0, 0x7F_C9_C0, 0xD7_D7_D2, 0xC9_8F_B4];
+    const COLOURS: [u32; MAX_PLAYERS] = [
+        0x8E_B8_E5, 0xE6_E0_8A, 0x9C_CF_8E, 0xC9_A2_7E, 0xB7_A3_E0, 0x7F_C9_C0, 0xD7_D7_D2, 0xC9_8F_B4,
+        0xB9_C4_6A, 0x8C_9B_A8, 0xE8_B3_9E,
+    ];
     rgb(COLOURS[usize::from(number) % COLOURS.len()])
 }
 
@@ -180,7 +183,7 @@ mod tests {
         let mut seen = [Attraction, Repulsion, Detour, Handling, Unguided, Blended].map(schema).to_vec();
         seen.extend(Team::BOTH.map(team));
         seen.push(SUM);
-        seen.extend((0..8).map(number));
+        seen.extend((1..=MAX_PLAYERS as u8).map(number));
         let mut seen: Vec<_> = seen.into_iter().map(|colour| egui(colour).to_array()).collect();
         let all = seen.len();
         seen.sort_unstable();

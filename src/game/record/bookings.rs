@@ -21,7 +21,7 @@ pub struct BookingFigures {
     pub several_go: Span,
     /// How often another robot began to go for the ball.
     pub takeovers: u64,
-    /// How soon a booker that went out of play was replaced, while another knew the ball.
+    /// How soon a booker that was switched off was replaced, while another knew the ball. One that is taken off may say so itself.
     pub replacement: Replacement,
     #[serde(skip)]
     last: [Option<(u8, f64)>; 2],
@@ -40,10 +40,10 @@ pub(super) struct BallSeeker {
 }
 
 impl BookingFigures {
-    /// Of the robots in play with these numbers, `seekers` know the ball.
+    /// The numbers of the robots that are switched off, and those in play that know the ball.
     pub(super) fn update(
         &mut self,
-        (in_play, seekers): (&[u8], &[BallSeeker]),
+        (off, seekers): (&[u8], &[BallSeeker]),
         threshold: Distance,
         now: f64,
         dt: f64,
@@ -58,18 +58,18 @@ impl BookingFigures {
         self.several_go.update(several, dt);
         self.farther_goes.update(!several && first.is_some_and(is_nearer), dt);
         let only = first.filter(|_| !several).map(|booker| booker.number);
-        self.note_replacement(in_play, seekers, only.is_some() || several, now);
+        self.note_replacement(off, seekers, only.is_some() || several, now);
         self.only = only;
         if let Some(booker) = only {
             self.note_booker(booker, now);
         }
     }
 
-    fn note_replacement(&mut self, in_play: &[u8], seekers: &[BallSeeker], somebody_goes: bool, now: f64) {
+    fn note_replacement(&mut self, off: &[u8], seekers: &[BallSeeker], somebody_goes: bool, now: f64) {
         if seekers.is_empty() {
             return self.replacement.interrupt();
         }
-        if self.only.is_some_and(|booker| !in_play.contains(&booker)) {
+        if self.only.is_some_and(|booker| off.contains(&booker)) {
             self.replacement.miss(now);
         }
         if somebody_goes {
@@ -111,7 +111,7 @@ mod tests {
             &[],
         ];
         for (round, seekers) in rounds.into_iter().enumerate() {
-            figures.update((&[1, 2], seekers), THRESHOLD, round as f64, 1.0);
+            figures.update((&[], seekers), THRESHOLD, round as f64, 1.0);
         }
         let total = |span: Span| span.total;
         assert_eq!(total(figures.farther_goes), 1.0);
@@ -123,12 +123,12 @@ mod tests {
     fn a_ball_that_comes_back_soon_has_alternated() {
         let mut figures = BookingFigures::default();
         for (now, number) in [(0.0, 1), (10.0, 2), (12.0, 1), (20.0, 2), (24.0, 1), (24.1, 1)] {
-            figures.update((&[1, 2], &[seeker(number, 500, true)]), THRESHOLD, now, 0.1);
+            figures.update((&[], &[seeker(number, 500, true)]), THRESHOLD, now, 0.1);
         }
         assert_eq!((figures.takeovers, figures.alternations), (4, 1));
     }
 
-    /// What is in each tick: who is in play, and who knows the ball.
+    /// What is in each tick: who is off, and who knows the ball.
     fn replacement(ticks: &[(&[u8], &[BallSeeker])]) -> (u32, f64) {
         let mut figures = BookingFigures::default();
         for (tick, both) in ticks.iter().enumerate() {
@@ -138,13 +138,17 @@ mod tests {
     }
 
     #[test]
-    fn a_booker_that_goes_out_of_play_is_replaced_when_another_goes() {
+    fn a_booker_that_is_switched_off_is_replaced_when_another_goes() {
         let (goes, waits) = (seeker(2, 500, true), seeker(2, 500, false));
-        let booker: (&[u8], &[BallSeeker]) = (&[1, 2], &[seeker(1, 300, true), waits]);
-        let (both, alone): (&[u8], &[u8]) = (&[1, 2], &[2]);
-        assert_eq!(replacement(&[booker, (alone, &[waits]), (alone, &[waits]), (alone, &[goes])]), (1, 2.0));
-        assert_eq!(replacement(&[booker, (alone, &[goes])]), (1, 0.0));
-        assert_eq!(replacement(&[booker, (both, &[waits]), (both, &[goes])]), (0, 0.0), "it is there");
-        assert_eq!(replacement(&[booker, (alone, &[]), (alone, &[goes])]), (0, 0.0), "nobody knew the ball");
+        let booker: (&[u8], &[BallSeeker]) = (&[], &[seeker(1, 300, true), waits]);
+        let (none, one): (&[u8], &[u8]) = (&[], &[1]);
+        assert_eq!(replacement(&[booker, (one, &[waits]), (one, &[waits]), (one, &[goes])]), (1, 2.0));
+        assert_eq!(replacement(&[booker, (one, &[goes])]), (1, 0.0));
+        assert_eq!(
+            replacement(&[booker, (none, &[waits]), (none, &[goes])]),
+            (0, 0.0),
+            "it was not switched off"
+        );
+        assert_eq!(replacement(&[booker, (one, &[]), (one, &[goes])]), (0, 0.0), "nobody knew the ball");
     }
 }

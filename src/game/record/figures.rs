@@ -7,7 +7,7 @@ use super::contacts::RobotContacts;
 use super::crowding::Crowding;
 use super::holds::HoldFigures;
 use super::kicks::{GripFigures, KickFigures, count_falls};
-use super::localisation::Localisation;
+use super::localisation::LocalisationFigures;
 use super::loose_balls::LooseBalls;
 use super::overlap::BallOverlap;
 use super::places::PlaceFigures;
@@ -35,7 +35,7 @@ pub struct Record {
     /// How well each team's ball booking has worked, told from what its robots believe.
     pub bookings: [BookingFigures; 2],
     /// How well each team's robots knew their places.
-    pub localisation: [Localisation; 2],
+    pub localisation: [LocalisationFigures; 2],
     /// Who touched whom.
     pub contacts: RobotContacts,
     /// Balls that nobody touched, and who won them.
@@ -128,7 +128,7 @@ impl Record {
         self.roles.iter_mut().for_each(HoldFigures::interrupt);
         self.states.iter_mut().for_each(HoldFigures::interrupt);
         self.role_cover.iter_mut().for_each(RoleCover::interrupt);
-        self.localisation.iter_mut().for_each(Localisation::interrupt);
+        self.localisation.iter_mut().for_each(LocalisationFigures::interrupt);
     }
 
     fn note_possession(&mut self, tick: &PlayTick) {

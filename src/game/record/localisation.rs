@@ -5,13 +5,13 @@ use smallvec::SmallVec;
 use crate::ids::PlayerNumber;
 
 /// A robot that is farther than this from where it believes it is has lost its place, m. Ours.
-pub const LOST: f32 = 0.5;
+const PLACE_LOST: f32 = 0.5;
 /// It has found it again when it is nearer than this, m. Ours.
-pub const FOUND: f32 = 0.25;
+const PLACE_FOUND: f32 = 0.25;
 
 /// How well the robots of a team that play know their places, told from what they believe.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Localisation {
+pub struct LocalisationFigures {
     /// The time of all of them, added up, s.
     pub robots: f64,
     /// Of it, that of those that have lost their place, s.
@@ -24,19 +24,19 @@ pub struct Localisation {
     since: SmallVec<[(PlayerNumber, f64); 8]>,
 }
 
-impl Localisation {
+impl LocalisationFigures {
     /// The robots that play, and how far each is from where it believes it is, m.
     pub(super) fn update(&mut self, errors: &[(PlayerNumber, f32)], now: f64, dt: f64) {
         self.since.retain(|(lost, _)| errors.iter().any(|(number, _)| number == lost));
         for (number, error) in errors {
             self.robots += dt;
             match self.since.iter().position(|(lost, _)| lost == number) {
-                Some(place) if *error < FOUND => {
+                Some(place) if *error < PLACE_FOUND => {
                     self.recoveries += 1;
                     self.recovering += now - self.since.swap_remove(place).1;
                 }
                 Some(_) => self.lost += dt,
-                None if *error > LOST => {
+                None if *error > PLACE_LOST => {
                     self.since.push((*number, now));
                     self.lost += dt;
                 }
@@ -58,8 +58,8 @@ mod tests {
     const ONE: PlayerNumber = 1;
     const TWO: PlayerNumber = 2;
 
-    fn after(steps: &[&[(PlayerNumber, f32)]]) -> Localisation {
-        let mut figures = Localisation::default();
+    fn after(steps: &[&[(PlayerNumber, f32)]]) -> LocalisationFigures {
+        let mut figures = LocalisationFigures::default();
         for (step, errors) in steps.iter().enumerate() {
             figures.update(errors, step as f64, 1.0);
         }

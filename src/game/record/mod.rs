@@ -35,7 +35,7 @@ pub use figures::Record;
 pub use holds::{BACK_WITHIN, HoldFigures};
 pub use invariants::{Breach, BreachCount, Invariant, Invariants};
 pub use kicks::{GripFigures, KickFigures};
-pub use localisation::{FOUND, LOST, Localisation};
+pub use localisation::LocalisationFigures;
 pub use loose_balls::{LOOSE_AFTER, LooseBalls, WON_AFTER};
 pub use overlap::{BallOverlap, TOLERANCE};
 pub use places::PlaceFigures;
@@ -105,13 +105,11 @@ fn watch_bookings(
 ) {
     for team in Team::BOTH {
         let Some(spec) = &strategies.of(team).teamwork.ball_booking else { continue };
-        let in_play = || {
-            robots.iter().filter(|(id, robot, .., orders)| {
-                id.team == team && !robot.health.crashed && orders.state == RobotState::Playing
-            })
-        };
-        let numbers: SmallVec<[u8; 8]> = in_play().map(|(id, ..)| id.number).collect();
-        let mut seekers: SmallVec<[BallSeeker; 8]> = in_play()
+        let own = || robots.iter().filter(|(id, ..)| id.team == team);
+        let off: SmallVec<[u8; 8]> =
+            own().filter(|(_, robot, ..)| robot.health.crashed).map(|(id, ..)| id.number).collect();
+        let mut seekers: SmallVec<[BallSeeker; 8]> = own()
+            .filter(|(_, robot, .., orders)| !robot.health.crashed && orders.state == RobotState::Playing)
             .filter_map(|(id, _, model, booking, _)| {
                 let goes = booking.0.goes();
                 let ball = model.ball.filter(|_| goes || booking.0.sees())?;
@@ -122,12 +120,7 @@ fn watch_bookings(
         seekers.sort_unstable_by_key(|seeker| seeker.number);
         let BallBooking { threshold, .. } = *spec;
         let threshold = Distance::from_metres(threshold);
-        record.bookings[team.index()].update(
-            (&numbers, &seekers),
-            threshold,
-            clock.now(),
-            f64::from(clock.dt),
-        );
+        record.bookings[team.index()].update((&off, &seekers), threshold, clock.now(), f64::from(clock.dt));
     }
 }
 

@@ -130,11 +130,12 @@ mod tests {
         places.update(&PlayTick { own_area: area, ..tick(&players) });
         assert_eq!(Team::BOTH.map(|team| places.unguarded(team) > 0.0), [false, true]);
         assert_eq!(Team::BOTH.map(|team| places.two_in_area(team) > 0.0), [true, false]);
+        let players = [players.as_slice(), &[player(AWAY_2, -2.2, 0.9)]].concat();
         let turned = PlayTick { own_area: area, home_attacks: Attacking::West, ..tick(&players) };
         let mut places = PlaceFigures::default();
         places.update(&turned);
         assert_eq!(Team::BOTH.map(|team| places.unguarded(team) > 0.0), [true, false]);
-        assert_eq!(Team::BOTH.map(|team| places.two_in_area(team) > 0.0), [false, false]);
+        assert_eq!(Team::BOTH.map(|team| places.two_in_area(team) > 0.0), [false, true]);
     }
 
     #[test]

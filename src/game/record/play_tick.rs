@@ -165,6 +165,7 @@ pub(super) mod stage {
     pub const HOME_1: RobotId = RobotId::new(Team::Home, 1);
     pub const HOME_2: RobotId = RobotId::new(Team::Home, 2);
     pub const AWAY_1: RobotId = RobotId::new(Team::Away, 1);
+    pub const AWAY_2: RobotId = RobotId::new(Team::Away, 2);
 
     /// A robot that plays and stands.
     pub fn player(id: RobotId, x: f32, y: f32) -> PlayerTick {

@@ -2,6 +2,8 @@
 
 use std::str::FromStr;
 
+use crate::strategy::MAX_PLAYERS;
+
 /// How many robots each side has, as people write it: `2v1`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DuelTeams(pub [u8; 2]);
@@ -10,10 +12,14 @@ impl FromStr for DuelTeams {
     type Err = String;
 
     fn from_str(text: &str) -> Result<DuelTeams, String> {
-        let number = |text: &str| text.parse::<u8>().ok().filter(|robots| (1..=8).contains(robots));
+        let number = |text: &str| {
+            text.parse::<u8>().ok().filter(|robots| (1..=MAX_PLAYERS).contains(&usize::from(*robots)))
+        };
         let numbers =
             text.split_once('v').and_then(|(first, second)| Some([number(first)?, number(second)?]));
-        numbers.map(DuelTeams).ok_or_else(|| "must be two numbers of robots, 1 to 8, such as 2v1".into())
+        numbers
+            .map(DuelTeams)
+            .ok_or_else(|| format!("must be two numbers of robots, 1 to {MAX_PLAYERS}, such as 2v1"))
     }
 }
 

@@ -49,12 +49,12 @@ impl JudgedClaim {
     /// Why the verdict is what it is.
     pub fn reason(&self) -> String {
         let Some(difference) = &self.difference else {
-            return "no seed has a value".into();
+            return "no seed was played to a value".into();
         };
         let mean = MeanWithInterval { value: Some(difference.mean), interval: self.interval };
         let unit = self.claim.metric.unit();
         let space = if unit.is_empty() { "" } else { " " };
-        let mean = if self.claim.than.is_empty() { format!("{mean}") } else { format!("{mean:+}") };
+        let mean = if self.claim.is.compares() { format!("{mean:+}") } else { format!("{mean}") };
         let said = format!("{mean}{space}{unit} with {} seeds", difference.pairs);
         let Some(interval) = self.interval else {
             return format!("{said}: they are too few or too even to tell the spread");
@@ -98,11 +98,13 @@ fn where_it_lies(is: ClaimedDifference, interval: Interval, difference: &PairedD
 /// at 95 %.
 pub(super) fn judge_claims(plan: &ExperimentPlan, rows: &PairedRows, confidence: f64) -> Vec<JudgedClaim> {
     let judge = |claim: &StatedClaim| {
-        let treatments = [&claim.of, &claim.than].map(|levels| plan.file.treatment(levels));
-        let pairs = match treatments {
-            [Some(of), Some(than)] => rows.differences([of, than], claim.metric),
-            [Some(of), None] => rows.values(of, claim.metric).into_values().collect(),
-            [None, _] => Vec::new(),
+        let [of, than] = [&claim.of, &claim.than].map(|levels| plan.file.treatment(levels));
+        let pairs = match (claim.is, of, than) {
+            (ClaimedDifference::Between(..), Some(of), _) => {
+                rows.values(of, claim.metric).into_values().collect()
+            }
+            (_, Some(of), Some(than)) => rows.differences([of, than], claim.metric),
+            _ => Vec::new(),
         };
         judged(claim, &pairs, confidence)
     };
@@ -217,6 +219,6 @@ mod tests {
             "{unclear}"
         );
         assert!(judge(Less, &[-1.0; 9]).reason().ends_with("too even to tell the spread"));
-        assert_eq!(judge(Less, &[]).reason(), "no seed has a value");
+        assert_eq!(judge(Less, &[]).reason(), "no seed was played to a value");
     }
 }

@@ -29,8 +29,8 @@ impl Display for MeanWithInterval {
     }
 }
 
-/// How many decimal places show a figure: three, or up to six if with fewer it would look like nothing or like an interval that begins at
-/// zero.
+/// How many decimal places show a figure: three, or up to six if with fewer there would be less than two digits of the largest number, or if
+/// an interval without zero would seem to begin there.
 fn decimal_places(value: f64, interval: Option<Interval>) -> usize {
     let [low, high] = interval.map_or([value; 2], |Interval { low, high }| [low, high]);
     let largest = value.abs().max(low.abs()).max(high.abs());

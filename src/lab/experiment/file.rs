@@ -73,6 +73,13 @@ pub enum ClaimedDifference {
     Between(f64, f64),
 }
 
+impl ClaimedDifference {
+    /// Whether two treatments are compared.
+    pub fn compares(self) -> bool {
+        !matches!(self, ClaimedDifference::Between(..))
+    }
+}
+
 fn yes() -> bool {
     true
 }

@@ -64,7 +64,7 @@ impl<'a> MatchFigures<'a> {
     /// How often the team, or neither of both, broke an invariant.
     fn broken(&self, team: Team) -> f64 {
         let own = self.invariants.broken.iter().filter(|((_, of), _)| of.is_none_or(|of| of == team));
-        own.map(|(_, count)| f64::from(count.times)).sum()
+        f64::from(own.map(|(_, count)| count.times).sum::<u32>())
     }
 
     /// Of the packets that a team sent, the share that was lost to a cause.
@@ -202,7 +202,7 @@ metrics! {
         let replacement = &m.record.pursuit[team.index()].replacement;
         some_ratio(replacement.seconds, replacement.number.into())
     };
-    ReplacementTimeLongest "replacement_time_longest" ["s"] "The longest of these times." (m, team) {
+    ReplacementTimeLongest "replacement_time_longest" ["s"] "The longest time that nobody drove at the ball after the only one that did was switched off or taken off." (m, team) {
         let replacement = &m.record.pursuit[team.index()].replacement;
         (replacement.number > 0).then_some(replacement.longest)
     };
@@ -210,11 +210,11 @@ metrics! {
         m.share(m.record.bookings[team.index()].nobody_goes.total);
     BelievedNobodyLongest "believed_nobody_longest" ["s"] "Longest time in which a robot knew the ball and none believed to go." (m, team)
         m.record.bookings[team.index()].nobody_goes.longest;
-    BookerReplacementTime "booker_replacement_time" ["s"] "How long nobody went, in the robots' eyes, after the only one that did was switched off or taken off and another knew the ball." (m, team) {
+    BookerReplacementTime "booker_replacement_time" ["s"] "How long nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team) {
         let replacement = &m.record.bookings[team.index()].replacement;
         some_ratio(replacement.seconds, replacement.number.into())
     };
-    BookerReplacementTimeLongest "booker_replacement_time_longest" ["s"] "The longest of these times." (m, team) {
+    BookerReplacementTimeLongest "booker_replacement_time_longest" ["s"] "The longest time that nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team) {
         let replacement = &m.record.bookings[team.index()].replacement;
         (replacement.number > 0).then_some(replacement.longest)
     };
@@ -226,9 +226,9 @@ metrics! {
         let localisation = &m.record.localisation[team.index()];
         ratio(localisation.lost, localisation.robots)
     };
-    PlaceRecoveries "place_recoveries" ["1/min"] "How often one came to within 0.25 m of it again, for a minute of play." (m, team)
+    PlaceRecoveries "place_recoveries" ["1/min"] "How often a robot that was over 0.5 m from where it believed to be came to within 0.25 m, for a minute." (m, team)
         m.per_minute(m.record.localisation[team.index()].recoveries);
-    PlaceRecoveryTime "place_recovery_time" ["s"] "How long that took in the mean, as after a kidnapping." (m, team) {
+    PlaceRecoveryTime "place_recovery_time" ["s"] "How long it took in the mean from over 0.5 m to within 0.25 m of where it believed to be, as after a kidnapping." (m, team) {
         let localisation = &m.record.localisation[team.index()];
         some_ratio(localisation.recovering, localisation.recoveries.into())
     };
@@ -284,7 +284,7 @@ metrics! {
         m.lost_to(team, Loss::Chance);
     LostToInterference "lost_to_interference" [""] "Share of its packets that were lost to interference or a jammed band." (m, team)
         m.lost_to(team, Loss::Extra) + m.lost_to(team, Loss::Jammed);
-    LostOnAir "lost_on_air" [""] "Share of its packets that were lost to others on the channel that all share." (m, team)
+    LostOnAir "lost_on_air" [""] "Share of its packets that were lost to the channel that all share: overlapping frames, or too many waiting." (m, team)
         m.lost_to(team, Loss::Air);
     LostToRange "lost_to_range" [""] "Share of its packets that were lost since the receiver was too far away." (m, team)
         m.lost_to(team, Loss::Range);

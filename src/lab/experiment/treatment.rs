@@ -271,4 +271,14 @@ mod tests {
             assert_eq!(own, shared);
         }
     }
+
+    #[test]
+    fn a_match_that_breaks_the_program_is_an_error_and_the_next_one_is_played() {
+        let mut plan = read(&[DesignChange::HalfMinutes(0.01)]);
+        // A role that is not there: no file comes to that.
+        Arc::make_mut(&mut plan.plans[0].teams[0].strategy).players.fill(usize::MAX);
+        let error = plan.play(1, false).expect_err("there is no such role");
+        assert!(error.contains("index out of bounds"), "{error}");
+        assert!(plan.play(1, true).is_ok(), "the other match has its roles");
+    }
 }

@@ -25,7 +25,7 @@ const HOW_TO_READ: [&str; 8] = [
 ];
 
 const VERDICTS: &str = "A claim held if the whole interval of its difference lies on the side that it names, did not hold if the whole \
-    interval lies on the other side, and otherwise, or with fewer than six seeds, it cannot be said. Each claim is judged by itself: of twenty claims that are wrong, \
+    interval lies on the other side, and otherwise, or with fewer than six seeds, it cannot be said. One that says how much there is held if the whole interval of the mean lies in its range, and did not hold if none of it does. Each claim is judged by itself: of twenty claims that are wrong, \
     one may seem to hold.";
 
 /// The beginning of a report.
@@ -63,7 +63,11 @@ fn row(judged: &JudgedClaim) -> Vec<String> {
     vec![
         claim.says.clone(),
         claim.source.clone(),
-        if than.is_empty() { format!("{figure}: {of}") } else { format!("{figure}: {of} against {than}") },
+        if claim.is.compares() {
+            format!("{figure}: {of} against {than}")
+        } else {
+            format!("{figure}: {of}")
+        },
         verdict,
         judged.reason(),
     ]

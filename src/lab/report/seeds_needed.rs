@@ -7,8 +7,8 @@ use crate::lab::experiment::{CONFIDENCE, Metric};
 use crate::lab::statistics::pairs_until_shown;
 
 const ABOUT: &str = "Goals are rare, so that they need many matches to tell two teams apart; what robots do all the time needs fewer. For treatments \
-    that differ by one level: the seeds that show their difference by Wilcoxon's test in nine cases of ten, if the truth is as it seems, by the goal \
-    difference and by how the ball is crowded (agglomeration, within half a metre, where robots are small). 15 is the least that can be told. - is more than a million.";
+    that differ by one level, the other factors at their first: the seeds that show their difference by Wilcoxon's test in nine cases of ten, if the truth is as it seems, by the goal \
+    difference and by how the ball is crowded (agglomeration, within half a metre, where robots are small). 15 is the least that can be told. - is more than a million, or cannot be told.";
 
 /// The measures of a crowd, the one for small robots first.
 const CROWDS: [Metric; 2] = [Metric::Agglomeration, Metric::Crowding];

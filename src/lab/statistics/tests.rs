@@ -35,7 +35,16 @@ struct SampleCase {
     signed_rank: RankCase,
     equivalence: Vec<EquivalenceCase>,
     wilcoxon_pairs: Vec<WilcoxonPairsCase>,
+    improvement_of_pairs: Vec<ShareCase>,
     bca: Vec<BcaCase>,
+}
+
+#[derive(Deserialize)]
+struct ShareCase {
+    level: f64,
+    share: f64,
+    low: f64,
+    high: f64,
 }
 
 #[derive(Deserialize)]
@@ -79,6 +88,7 @@ struct BcaCase {
     resamples: Vec<String>,
     low: f64,
     high: f64,
+    percentile: (f64, f64),
 }
 
 #[derive(Deserialize)]
@@ -193,8 +203,11 @@ fn signed_ranks_are_those_of_scipy() {
 fn of_the_same_resamples_a_bootstrap_interval_is_that_of_scipy() {
     let mut compared = 0;
     for SampleCase { name, values, bca, .. } in values().samples {
-        for BcaCase { statistic, level, resamples, low, high } in bca {
-            let resamples = resamples.iter().map(|value| value.parse().expect("it is a number")).collect();
+        for BcaCase { statistic, level, resamples, low, high, percentile } in bca {
+            let resamples: Vec<f64> =
+                resamples.iter().map(|value| value.parse().expect("it is a number")).collect();
+            let plain = percentile_interval(resamples.clone(), level);
+            assert_interval(plain, percentile.0, percentile.1, &format!("{name}, {statistic}, percentile"));
             let found = match statistic.as_str() {
                 "mean" => bca_interval(&values, mean_of_some, resamples, level),
                 _ => bca_interval(&values, |drawn| median(drawn).unwrap_or(f64::NAN), resamples, level),
@@ -226,6 +239,17 @@ fn the_probability_of_improvement_is_that_of_mann_and_whitney_with_newcombes_int
         let what = format!("{first:?} against {second:?}");
         assert_near(found.probability, share, &what);
         assert_interval(Some(found.interval), low, high, &what);
+    }
+}
+
+#[test]
+fn the_improvement_of_pairs_is_the_share_of_wins_with_wilsons_interval() {
+    for SampleCase { name, values, improvement_of_pairs: expected, .. } in values().samples {
+        for ShareCase { level, share, low, high } in expected {
+            let found = improvement_of_pairs(&values, level).expect("it has pairs");
+            assert_near(found.probability, share, &name);
+            assert_interval(Some(found.interval), low, high, &name);
+        }
     }
 }
 

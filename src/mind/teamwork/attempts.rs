@@ -51,7 +51,9 @@ mod tests {
     #[test]
     fn only_completed_attempts_have_a_length() {
         let mut attempts = SwapAttempts::default();
-        for (tick, outcome) in [(10, Outcome::Completed), (50, Outcome::LocksMissing)] {
+        for (tick, outcome) in
+            [(10, Outcome::Completed), (50, Outcome::LocksMissing), (70, Outcome::AcksMissing)]
+        {
             attempts.begin(tick);
             attempts.finish(outcome, tick + 7);
         }
@@ -59,6 +61,6 @@ mod tests {
         attempts.give_up();
         attempts.finish(Outcome::Completed, 500);
         let SwapAttempts { begun, completed, without_locks, without_acks, ticks, .. } = attempts;
-        assert_eq!((begun, completed, without_locks, without_acks, ticks), (3, 1, 1, 0, 7));
+        assert_eq!((begun, completed, without_locks, without_acks, ticks), (4, 1, 1, 1, 7));
     }
 }

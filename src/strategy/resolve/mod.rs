@@ -240,7 +240,7 @@ impl Resolver<'_> {
 }
 
 /// Robots that one team can field.
-const MAX_PLAYERS: usize = 8;
+pub const MAX_PLAYERS: usize = 11;
 /// Pieces in a section of a strategy, or states of a machine.
 const MOST_PIECES: usize = 1000;
 /// Roles are spoken of by numbers of one byte.

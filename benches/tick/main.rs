@@ -1,20 +1,19 @@
-//! What a tick costs: Hammerheads against ball chasers, eight Cyes with trailers, real sensing, on one core.
+//! What a tick costs: Hammerheads against ball chasers, eight Cyes with trailers, real sensing.
 //!
-//! Prints three figures: simulated seconds per second; the ratio of a whole tick to a bare rapier2d pipeline that steps the
-//! same bodies, joints and shapes at the same rate, from situations of the same match; and what a tick of two teams that talk
-//! and swap roles costs beside one of the same teams without a word.
+//! Prints simulated seconds per second, and those of all robots; the ratio of a whole tick to a bare rapier2d pipeline that steps the same
+//! bodies, joints and shapes at the same rate, from situations of the same match; what a tick of two teams that talk and swap roles
+//! costs beside one of the same teams without a word; which stage takes how much; what more robots, more cores and more matches cost.
+
+mod bare_world;
+mod scaling;
+mod stages;
 
 use std::cell::Cell;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use bevy::ecs::system::SystemState;
-use bevy::prelude::*;
-use bevy_rapier2d::prelude::*;
-use bevy_rapier2d::rapier::prelude::{
-    CCDSolver, DefaultBroadPhase, IntegrationParameters, IslandManager, NarrowPhase, PhysicsPipeline,
-};
+use bare_world::BareWorld;
 use criterion::{Criterion, criterion_group, criterion_main};
 use touchline::clock::TICK_HZ;
 use touchline::data::AssetFolder;
@@ -77,70 +76,8 @@ impl Season {
     }
 }
 
-/// The physical world of a match, cut loose from it.
-#[derive(Clone)]
-struct BareWorld {
-    colliders: RapierContextColliders,
-    joints: RapierContextJoints,
-    bodies: RapierRigidBodySet,
-    islands: IslandManager,
-    broad_phase: DefaultBroadPhase,
-    narrow_phase: NarrowPhase,
-    ccd: CCDSolver,
-    parameters: IntegrationParameters,
-}
-
-impl BareWorld {
-    fn of(game: &mut Match) -> BareWorld {
-        type World<'a> = (
-            &'a RapierContextColliders,
-            &'a RapierContextJoints,
-            &'a RapierRigidBodySet,
-            &'a RapierContextSimulation,
-        );
-        let mut state: SystemState<Query<World>> = SystemState::new(game.world_mut());
-        let worlds = state.get(game.world()).expect("the query is sound");
-        let (colliders, joints, bodies, simulation) = worlds.single().expect("one physical world");
-        BareWorld {
-            colliders: colliders.clone(),
-            joints: joints.clone(),
-            bodies: bodies.clone(),
-            islands: simulation.islands.clone(),
-            broad_phase: simulation.broad_phase.clone(),
-            narrow_phase: simulation.narrow_phase.clone(),
-            ccd: simulation.ccd_solver.clone(),
-            parameters: simulation.integration_parameters,
-        }
-    }
-
-    /// Steps for half a second of match time after one step to warm up, and returns the time and the number of steps.
-    fn run(mut self) -> (Duration, u64) {
-        let steps = (TICK_HZ / 2.0) as u64;
-        let mut pipeline = PhysicsPipeline::new();
-        let mut step = || {
-            pipeline.step(
-                Vec2::ZERO,
-                &self.parameters,
-                &mut self.islands,
-                &mut self.broad_phase,
-                &mut self.narrow_phase,
-                &mut self.bodies.bodies,
-                &mut self.colliders.colliders,
-                &mut self.joints.impulse_joints,
-                &mut self.joints.multibody_joints,
-                &mut self.ccd,
-                &(),
-                &(),
-            );
-        };
-        step();
-        let started = Instant::now();
-        (0..steps).for_each(|_| step());
-        (started.elapsed(), steps)
-    }
-}
-
 fn ticks(criterion: &mut Criterion) {
+    scaling::print_matches(&plan(None));
     let (whole, bare) = (Spent::default(), Spent::default());
     measure(criterion, "whole tick", plan(None), &whole);
     let mut season = Season::new(plan(None));
@@ -167,9 +104,13 @@ fn ticks(criterion: &mut Criterion) {
     let (talking, silent) = (Spent::default(), Spent::default());
     measure(criterion, "tick of teams that talk", plan(Some("hammerheads_swap")), &talking);
     measure(criterion, "tick of teams that say nothing", silenced(plan(Some("hammerheads_swap"))), &silent);
-    println!("simulated seconds per second: {:.0}", 1.0 / (tick * f64::from(TICK_HZ)));
+    let speed = 1.0 / (tick * f64::from(TICK_HZ));
+    let robots = plan(None).robots().count() as f64;
+    println!("simulated seconds per second: {speed:.0}; of all robots: {:.0}", robots * speed);
     println!("whole tick {:.2} µs / bare rapier step {:.2} µs = {:.2}", tick * 1e6, step * 1e6, tick / step);
     println!("with radio / without = {:.2}", talking.mean_seconds() / silent.mean_seconds());
+    stages::print(&plan(None));
+    scaling::print(&plan(None));
 }
 
 fn measure(criterion: &mut Criterion, name: &str, plan: MatchPlan, spent: &Spent) {
