@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use bevy::prelude::Vec2;
 use touchline::clock::TICK_HZ;
 use touchline::game::{Match, MatchPlan};
+use touchline::ops;
 
 /// Robots of each team.
 const TEAMS: [usize; 5] = [1, 2, 4, 8, 11];
@@ -49,7 +50,7 @@ fn more_robots(plan: &MatchPlan) {
     let costs = TEAMS.map(|robots| {
         let cost = played(&with_robots(plan, robots)).as_secs_f64() / ticks;
         println!("a tick of {:2} robots: {:6.2} µs", 2 * robots, cost * 1e6);
-        ((2.0 * robots as f64).ln(), cost.ln())
+        (ops::ln_f64(2.0 * robots as f64), ops::ln_f64(cost))
     });
     let count = costs.len() as f64;
     let (x, y) = costs.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / count, y + point.1 / count));
