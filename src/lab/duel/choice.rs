@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn numbers_of_robots_are_read_as_people_write_them() {
         assert_eq!("2v1".parse(), Ok(DuelTeams([2, 1])));
-        for text in ["2", "2v", "v1", "0v1", "1v9", "2 v 1", "-1v1", "1v1v1"] {
+        for text in ["2", "2v", "v1", "0v1", "1v12", "2 v 1", "-1v1", "1v1v1"] {
             assert!(text.parse::<DuelTeams>().unwrap_err().contains("2v1"), "{text}");
         }
     }
