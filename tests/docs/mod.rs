@@ -36,6 +36,20 @@ fn the_scenario_in_the_docs_passes() {
     assert!(report.passed(), "{report}");
 }
 
+#[test]
+fn the_results_are_those_of_the_shipped_designs() {
+    let results = Page::read("RESULTS.md");
+    for path in assets().files(AssetKind::Experiment).expect("there are some") {
+        let design = std::fs::read(&path).expect("it can be read");
+        let hash = format!("hash of the design {:016x}", xxhash_rust::xxh3::xxh3_64(&design));
+        assert!(
+            results.text.contains(&hash),
+            "RESULTS.md has no chapter of {} as it is: {hash}",
+            path.display()
+        );
+    }
+}
+
 /// What `cargo run --` and `cargo headless` run with these arguments, if a command of the docs is one of them.
 fn arguments(command: &str) -> Option<Vec<&str>> {
     let command = command.split('#').next().unwrap_or_default().trim();
