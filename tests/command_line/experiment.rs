@@ -283,8 +283,8 @@ fn any_row(table: &str) -> String {
 
 #[test]
 fn a_design_that_stops_by_itself_plays_no_more_than_it_takes_and_goes_on_if_it_was_cut_off() {
-    let until = "until: Some(Width(metric: PacketsLost, confidence: 0.9, width: 0.9)), metrics:";
-    let short = DESIGN.replace("HalfMinutes(0.1)", "HalfMinutes(0.02)");
+    let until = "until: Some(Width(metric: Driven, confidence: 0.9, width: 500)), metrics:";
+    let short = DESIGN.replace("HalfMinutes(0.1)", "HalfMinutes(0.03)");
     let design = short.replace("number: 2", "number: 99").replace("metrics:", until);
     let stage = Stage::new(&design);
     stage.play("out", &[]);
