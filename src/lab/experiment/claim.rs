@@ -161,7 +161,7 @@ mod tests {
             source: "ours".into(),
             metric: Metric::Driven,
             of: Vec::new(),
-            than: vec!["another".into()],
+            than: Vec::new(),
             is,
         };
         judged(&claim, differences, 0.95)

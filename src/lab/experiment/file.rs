@@ -285,23 +285,18 @@ impl Validate for ExperimentFile {
         check_count("factors", "the number of treatments", self.treatments(), 1..=TREATMENTS)?;
         for (place, claim) in self.claims.iter().enumerate() {
             let at = format!("claims.{place}");
-            let treatments: &[_] = match claim.is {
+            match claim.is {
                 ClaimedDifference::Between(low, high) => {
                     check_range(&format!("{at}.is.Between"), low, high)?;
                     ensure(claim.than.is_empty(), &format!("{at}.than"), || {
                         "is not there in a claim of how much there is".into()
                     })?;
-                    &[("of", &claim.of)]
                 }
-                ClaimedDifference::Within(margin) => {
-                    check_width(&format!("{at}.is.Within"), margin)?;
-                    &[("of", &claim.of), ("than", &claim.than)]
-                }
-                ClaimedDifference::Less | ClaimedDifference::More => {
-                    &[("of", &claim.of), ("than", &claim.than)]
-                }
-            };
-            for (field, levels) in treatments {
+                ClaimedDifference::Within(margin) => check_width(&format!("{at}.is.Within"), margin)?,
+                ClaimedDifference::Less | ClaimedDifference::More => {}
+            }
+            let than = claim.is.compares().then_some(("than", &claim.than));
+            for (field, levels) in [("of", &claim.of)].into_iter().chain(than) {
                 let at = format!("{at}.{field}");
                 ensure(self.treatment(levels).is_some(), &at, || {
                     "must be a level of each factor, in their order".into()
