@@ -49,6 +49,7 @@ const MATCHES: &[ReferenceMatch] = &[
     reference("four_legged_2005", "hammerheads_swap", "chaos_b3p", "bursty", 120.0),
     reference("friendly_images", "hammerheads_2001", "ball_chasers", "good", 15.0),
     reference("four_legged_images", "chaos_b3p", "chaos_plain", "good", 15.0),
+    reference("friendly", "hammerheads_booking", "hammerheads_swap", "good", 120.0),
 ];
 
 /// Minutes of a half, so that most of the matches come to their end.
