@@ -64,7 +64,7 @@ fn one_goes_where_others_send_several([with, without]: &[Driving; 2]) {
 
 /// What the booking machines believe, on which the robots act.
 fn breaks_its_requirements_for_moments_only(record: &Record, team: Team) {
-    let figures = record.bookings[team.index()];
+    let figures = &record.bookings[team.index()];
     let renewal_and_delay = 0.5;
     assert!(figures.several_go.longest < renewal_and_delay, "{figures:?}");
     assert!(figures.nobody_goes.longest < renewal_and_delay, "{figures:?}");

@@ -47,6 +47,7 @@ def averages(values):
     return {
         "mean": x.mean(),
         "median": np.median(x),
+        "quantiles": [[share, np.quantile(x, share)] for share in (0.0, 0.3, 0.95, 1.0)],
         "deviation": x.std(ddof=1),
         "intervals": [[level, *stats.t.interval(level, len(x) - 1, x.mean(), error)] for level in (0.8, 0.95, 0.999)],
     }

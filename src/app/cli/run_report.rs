@@ -196,7 +196,7 @@ impl RunReport {
             agglomeration: shares(record.crowding.seconds(AGGLOMERATION)),
             crowded: crowded.collect(),
             pursuit: record.pursuit.clone(),
-            booking_beliefs: record.bookings,
+            booking_beliefs: record.bookings.clone(),
             contacts: ContactReport::of(&record.contacts),
             loose_balls: record.loose_balls,
             kicks: record.kicks,

@@ -77,7 +77,7 @@ impl Record {
             crowding: Crowding::default(),
             places: PlaceFigures::default(),
             pursuit: Default::default(),
-            bookings: [BookingFigures::default(); 2],
+            bookings: Default::default(),
             localisation: Default::default(),
             contacts: RobotContacts::default(),
             loose_balls: LooseBalls::default(),

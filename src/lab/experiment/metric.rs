@@ -7,7 +7,8 @@ use crate::comms::radio::{LinkCounters, Loss, RadioRecord};
 use crate::game::Match;
 use crate::game::record::{AGGLOMERATION, CROWD, Invariants, Record};
 use crate::ids::{RobotId, Team};
-use crate::mind::teamwork::{SwapAttempts, Swapping};
+use crate::lab::statistics::{mean, quantile};
+use crate::mind::teamwork::{LockRequests, SwapAttempts, Swapping};
 use crate::world::referee::RemovalReason;
 
 /// What the figures are taken from.
@@ -24,7 +25,7 @@ pub struct MatchFigures<'a> {
     dt: f64,
 }
 
-/// The role swaps of a team, as those who began them know.
+/// The role swaps of a team, as those who began them and those who were asked for their locks know.
 #[derive(Clone, Copy, Default)]
 struct SwapFigures {
     begun: f64,
@@ -33,6 +34,9 @@ struct SwapFigures {
     without_acks: f64,
     /// Of those that were completed, in ticks.
     ticks: f64,
+    requests: f64,
+    granted: f64,
+    ran_out: f64,
 }
 
 impl<'a> MatchFigures<'a> {
@@ -99,6 +103,10 @@ fn swaps(world: &World) -> [SwapFigures; 2] {
             of.without_locks += f64::from(without_locks);
             of.without_acks += f64::from(without_acks);
             of.ticks += count(ticks);
+            let LockRequests { received, granted, ran_out } = swapping.requests;
+            of.requests += f64::from(received);
+            of.granted += f64::from(granted);
+            of.ran_out += f64::from(ran_out);
         }
     }
     swaps
@@ -198,26 +206,22 @@ metrics! {
         m.per_minute(count(m.record.pursuit[team.index()].takeovers));
     Alternations "alternations" ["1/min"] "Takeovers back to the robot before within 3 s, for a minute of play." (m, team)
         m.per_minute(count(m.record.pursuit[team.index()].alternations));
-    ReplacementTime "replacement_time" ["s"] "How long nobody drove at the ball after the only one that did was switched off or taken off." (m, team) {
-        let replacement = &m.record.pursuit[team.index()].replacement;
-        some_ratio(replacement.seconds, replacement.number.into())
-    };
-    ReplacementTimeLongest "replacement_time_longest" ["s"] "The longest time that nobody drove at the ball after the only one that did was switched off or taken off." (m, team) {
-        let replacement = &m.record.pursuit[team.index()].replacement;
-        (replacement.number > 0).then_some(replacement.longest)
-    };
+    ReplacementTime "replacement_time" ["s"] "How long nobody drove at the ball after the only one that did was switched off or taken off." (m, team)
+        mean(&m.record.pursuit[team.index()].replacement.seconds);
+    ReplacementTimeLongest "replacement_time_longest" ["s"] "The longest time that nobody drove at the ball after the only one that did was switched off or taken off." (m, team)
+        quantile(&m.record.pursuit[team.index()].replacement.seconds, 1.0);
     BelievedNobody "believed_nobody" [""] "Share of play in which a robot of a booking team knew the ball and none believed to go." (m, team)
         m.share(m.record.bookings[team.index()].nobody_goes.total);
     BelievedNobodyLongest "believed_nobody_longest" ["s"] "Longest time in which a robot knew the ball and none believed to go." (m, team)
         m.record.bookings[team.index()].nobody_goes.longest;
-    BookerReplacementTime "booker_replacement_time" ["s"] "How long nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team) {
-        let replacement = &m.record.bookings[team.index()].replacement;
-        some_ratio(replacement.seconds, replacement.number.into())
-    };
-    BookerReplacementTimeLongest "booker_replacement_time_longest" ["s"] "The longest time that nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team) {
-        let replacement = &m.record.bookings[team.index()].replacement;
-        (replacement.number > 0).then_some(replacement.longest)
-    };
+    BookerReplacementTime "booker_replacement_time" ["s"] "How long nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team)
+        mean(&m.record.bookings[team.index()].replacement.seconds);
+    BookerReplacementTimeMedian "booker_replacement_time_median" ["s"] "The median of these times." (m, team)
+        quantile(&m.record.bookings[team.index()].replacement.seconds, 0.5);
+    BookerReplacementTimeP95 "booker_replacement_time_p95" ["s"] "Their 95th percentile." (m, team)
+        quantile(&m.record.bookings[team.index()].replacement.seconds, 0.95);
+    BookerReplacementTimeLongest "booker_replacement_time_longest" ["s"] "The longest time that nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team)
+        quantile(&m.record.bookings[team.index()].replacement.seconds, 1.0);
     BelievedSeveral "believed_several" [""] "Share of play in which several robots of a booking team believed to go." (m, team)
         m.share(m.record.bookings[team.index()].several_go.total);
     LooseBallsWon "loose_balls_won" ["1/min"] "Balls that nobody had touched for a second and that it got, for a minute." (m, team)
@@ -266,6 +270,12 @@ metrics! {
         some_ratio(m.swaps[team.index()].without_acks, m.swaps[team.index()].begun);
     SwapTime "swap_time" ["s"] "How long the completed ones took in the mean, from the first LOCK to the last ACKSWAP." (m, team)
         some_ratio(m.swaps[team.index()].ticks * m.dt, m.swaps[team.index()].completed);
+    LocksAsked "locks_asked" ["1/min"] "LOCKs of mates that reached its robots, for a minute of play." (m, team)
+        m.per_minute(m.swaps[team.index()].requests);
+    LocksGranted "locks_granted" [""] "Share of them that were answered with a lock; the others were refused." (m, team)
+        some_ratio(m.swaps[team.index()].granted, m.swaps[team.index()].requests);
+    LocksRunOut "locks_run_out" [""] "Share of the locks given that ran out before a new role came." (m, team)
+        some_ratio(m.swaps[team.index()].ran_out, m.swaps[team.index()].granted);
     InvariantsBroken "invariants_broken" [""] "How often something did not hold for too long that must hold of every match." (m, team)
         m.broken(team);
     StateChanges "state_changes" ["1/min"] "How often its robots changed the state of their machine, for a minute." (m, team)

@@ -20,6 +20,20 @@ pub fn median(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| Data::new(values.to_vec()).median())
 }
 
+/// Below which a share of the values lies, linear between the sorted values; `None` of nothing.
+pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    (!sorted.is_empty()).then(|| quantile_of_sorted(&sorted, share))
+}
+
+/// The same of one sorted value at least, from the first at 0 to the last at 1.
+pub(super) fn quantile_of_sorted(sorted: &[f64], share: f64) -> f64 {
+    let at = share * (sorted.len() - 1) as f64;
+    let below = sorted[at.floor() as usize];
+    below + at.fract() * (sorted[at.ceil() as usize] - below)
+}
+
 /// A mean and how far the values lie from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampleMoments {

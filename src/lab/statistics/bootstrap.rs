@@ -1,5 +1,6 @@
 //! Intervals for any statistic, from samples drawn of the sample.
 
+use super::average::quantile_of_sorted;
 use super::interval::Interval;
 use super::quantiles::{normal_cdf, normal_quantile};
 use crate::rng::Dice;
@@ -43,7 +44,7 @@ pub fn bca_interval(
     resamples.sort_unstable_by(f64::total_cmp);
     let end = |share: f64| {
         let moved = bias + normal_quantile(share);
-        quantile(&resamples, normal_cdf(bias + moved / (1.0 - acceleration * moved)))
+        quantile_of_sorted(&resamples, normal_cdf(bias + moved / (1.0 - acceleration * moved)))
     };
     let tail = 0.5 - confidence / 2.0;
     let interval = Interval { low: end(tail), high: end(1.0 - tail) };
@@ -58,7 +59,10 @@ pub fn percentile_interval(mut resamples: Vec<f64>, confidence: f64) -> Option<I
     }
     resamples.sort_unstable_by(f64::total_cmp);
     let tail = 0.5 - confidence / 2.0;
-    Some(Interval { low: quantile(&resamples, tail), high: quantile(&resamples, 1.0 - tail) })
+    Some(Interval {
+        low: quantile_of_sorted(&resamples, tail),
+        high: quantile_of_sorted(&resamples, 1.0 - tail),
+    })
 }
 
 /// By how many deviations the statistic lies off the middle of its resamples; those that are equal to it count half.
@@ -81,11 +85,4 @@ fn acceleration(values: &[f64], statistic: impl Fn(&[f64]) -> f64) -> Option<f64
     let square = moment(2);
     let is_spread = square > f64::EPSILON * centre * centre;
     is_spread.then(|| moment(3) / (6.0 * square * square.sqrt()))
-}
-
-/// Linear between the sorted values, from the first at 0 to the last at 1.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let at = share * (sorted.len() - 1) as f64;
-    let below = sorted[at.floor() as usize];
-    below + at.fract() * (sorted[at.ceil() as usize] - below)
 }

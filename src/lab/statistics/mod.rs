@@ -19,7 +19,7 @@ mod signed_rank;
 mod tests;
 mod until_width;
 
-pub use average::{SampleMoments, mean, mean_interval, median};
+pub use average::{SampleMoments, mean, mean_interval, median, quantile};
 pub use bootstrap::{RESAMPLES, bca_interval, percentile_interval, resampled};
 pub use compare::{PairedDifference, compare_pairs, pairs_until_shown};
 pub use effect::{cohens_d_z, rank_biserial};

@@ -51,6 +51,8 @@ struct ShareCase {
 struct AverageCase {
     mean: f64,
     median: f64,
+    /// Shares and what lies at them.
+    quantiles: Vec<(f64, f64)>,
     deviation: f64,
     intervals: Vec<(f64, f64, f64)>,
 }
@@ -169,6 +171,9 @@ fn means_medians_and_their_intervals_are_those_of_scipy() {
         let spread = SampleMoments::of(&values).expect("it has two values");
         assert_near(mean(&values).expect("it has values"), average.mean, &name);
         assert_near(median(&values).expect("it has values"), average.median, &name);
+        for (share, value) in average.quantiles {
+            assert_near(quantile(&values, share).expect("it has values"), value, &name);
+        }
         assert_near(spread.deviation, average.deviation, &name);
         assert_near(cohens_d_z(&values).expect("it has a spread"), d_z, &name);
         for (level, low, high) in average.intervals {
@@ -319,7 +324,8 @@ fn samples_that_say_nothing_have_no_interval_and_no_test() {
         assert_eq!(cohens_d_z(values), None, "{values:?}");
         assert_eq!(equivalence(values, 0.3, 0.95), None, "{values:?}");
     }
-    assert_eq!((mean(&[]), median(&[]), SampleMoments::of(&[1.0])), (None, None, None));
+    assert_eq!((mean(&[]), median(&[]), quantile(&[], 0.5)), (None, None, None));
+    assert_eq!(SampleMoments::of(&[1.0]), None);
     assert_eq!((signed_rank(&[]), signed_rank(&[0.0, 0.0]), rank_biserial(&[0.0])), (None, None, None));
     assert_eq!((improvement_of_pairs(&[], 0.95), improvement_of_samples(&[], &[1.0], 0.95)), (None, None));
     assert_eq!((walsh_share(&[1.0]), paired_t_power(0.5, 1, 0.95)), (None, None));

@@ -1,4 +1,4 @@
-//! What became of the role swaps that a robot has begun.
+//! What became of the role swaps that a robot has begun, and of the locks that it was asked for.
 
 use crate::protocol::role_swap::Outcome;
 
@@ -42,6 +42,17 @@ impl SwapAttempts {
     pub(super) fn give_up(&mut self) {
         self.since = None;
     }
+}
+
+/// The locks that others have asked a robot for since the match began.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LockRequests {
+    /// Every LOCK that arrived.
+    pub received: u32,
+    /// Those that it answered with an ACKLOCK; it refuses by silence (section VII-A.1).
+    pub granted: u32,
+    /// Locks whose timer ran out before a new role came.
+    pub ran_out: u32,
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ mod tests;
 
 use bevy::prelude::*;
 
-pub use attempts::SwapAttempts;
+pub use attempts::{LockRequests, SwapAttempts};
 pub use booking::Booking;
 pub use claims::{Claim, Claims};
 pub use global_map::{BallEstimate, GlobalMap, Reported, fuse};

@@ -4,7 +4,7 @@ use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 use smallvec::SmallVec;
 
-use super::attempts::SwapAttempts;
+use super::attempts::{LockRequests, SwapAttempts};
 use super::team_model::{TeamModel, kick_off_roles};
 use crate::clock::Clock;
 use crate::comms::messages::{Inbox, TeamMessage};
@@ -31,6 +31,8 @@ pub struct Swapping {
     pub machine: RoleSwap,
     /// What became of the swaps that the robot has begun.
     pub attempts: SwapAttempts,
+    /// What became of the locks that others have asked it for.
+    pub requests: LockRequests,
     /// When the timers run out, in ticks.
     deadlines: [Option<u64>; 3],
     /// It starts no attempt before this tick.
@@ -66,6 +68,7 @@ impl Swapping {
         Some(Swapping {
             machine,
             attempts: SwapAttempts::default(),
+            requests: LockRequests::default(),
             deadlines: [None; 3],
             earliest: 0,
             reassigned: false,
@@ -163,6 +166,7 @@ impl SwapperItem<'_, '_> {
                 self.step(Input::TimeOut(timer), timers, clock);
                 // It took part in an attempt that came to nothing.
                 if timer == Timer::Lock && was_locked && !self.swapping.reassigned {
+                    self.swapping.requests.ran_out += 1;
                     self.swapping.back_off(timers, clock);
                 }
             }
@@ -243,11 +247,17 @@ impl SwapperItem<'_, '_> {
 
     fn step(&mut self, input: Input, timers: &Timers, clock: &Clock) {
         let swapping = &mut *self.swapping;
+        if matches!(input, Input::Receive { message: Message::Lock { .. }, .. }) {
+            swapping.requests.received += 1;
+        }
         for effect in swapping.machine.step(input) {
             match effect {
                 Effect::Send { to, message } => {
                     match message {
-                        Message::AckLock { .. } => swapping.reassigned = false,
+                        Message::AckLock { .. } => {
+                            swapping.reassigned = false;
+                            swapping.requests.granted += 1;
+                        }
                         Message::AckSwap { .. } => swapping.reassigned = true,
                         Message::Lock { .. } | Message::Swap { .. } => {}
                     }
