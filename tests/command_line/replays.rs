@@ -72,7 +72,7 @@ fn what_is_no_sound_replay_is_refused_in_one_line() {
 #[test]
 fn each_run_of_a_scenario_is_recorded_in_a_file_of_its_own() {
     let (folder, _) = folder();
-    let scenario = "assets/scenarios/booking_nearer_takes_over.ron";
+    let scenario = "assets/scenarios/booking_nearer_takes_over.ron:laboratory";
     let output = touchline(&["check", scenario, "--ablate", "--record", path_of(folder.path())]);
     assert!(output.status.success(), "{}", text(&output.stdout));
     let files =
@@ -81,7 +81,7 @@ fn each_run_of_a_scenario_is_recorded_in_a_file_of_its_own() {
     files.sort();
     let named = |part: &str| files.iter().filter(|file| path_of(file).contains(part)).count();
     assert_eq!(
-        (named("booking_nearer_takes_over.seed_1.replay"), named("without_")),
+        (named("booking_nearer_takes_over.laboratory.seed_1.replay"), named("without_")),
         (1, files.len() / 2),
         "{files:?}"
     );
