@@ -7,7 +7,7 @@ use crate::comms::radio::{LinkCounters, Loss, RadioRecord};
 use crate::game::Match;
 use crate::game::record::{AGGLOMERATION, CROWD, Invariants, Record};
 use crate::ids::{RobotId, Team};
-use crate::lab::statistics::{mean, quantile};
+use crate::lab::statistics::{mean, median, quantile};
 use crate::mind::teamwork::{LockRequests, SwapAttempts, Swapping};
 use crate::world::referee::RemovalReason;
 
@@ -75,6 +75,16 @@ impl<'a> MatchFigures<'a> {
     fn lost_to(&self, team: Team, cause: Loss) -> f64 {
         let sent = self.sent_by(team);
         ratio(count(sent.lost[cause.index()]), count(sent.sent))
+    }
+
+    /// How long it took each time until somebody drove at the ball again, s.
+    fn driver_replacements(&self, team: Team) -> &[f64] {
+        &self.record.pursuit[team.index()].replacement.seconds
+    }
+
+    /// How long it took each time until somebody went again in the robots' eyes, s.
+    fn booker_replacements(&self, team: Team) -> &[f64] {
+        &self.record.bookings[team.index()].replacement.seconds
     }
 
     fn removed(&self, team: Team, reason: RemovalReason) -> f64 {
@@ -207,21 +217,21 @@ metrics! {
     Alternations "alternations" ["1/min"] "Takeovers back to the robot before within 3 s, for a minute of play." (m, team)
         m.per_minute(count(m.record.pursuit[team.index()].alternations));
     ReplacementTime "replacement_time" ["s"] "How long nobody drove at the ball after the only one that did was switched off or taken off." (m, team)
-        mean(&m.record.pursuit[team.index()].replacement.seconds);
+        mean(m.driver_replacements(team));
     ReplacementTimeLongest "replacement_time_longest" ["s"] "The longest time that nobody drove at the ball after the only one that did was switched off or taken off." (m, team)
-        quantile(&m.record.pursuit[team.index()].replacement.seconds, 1.0);
+        quantile(m.driver_replacements(team), 1.0);
     BelievedNobody "believed_nobody" [""] "Share of play in which a robot of a booking team knew the ball and none believed to go." (m, team)
         m.share(m.record.bookings[team.index()].nobody_goes.total);
     BelievedNobodyLongest "believed_nobody_longest" ["s"] "Longest time in which a robot knew the ball and none believed to go." (m, team)
         m.record.bookings[team.index()].nobody_goes.longest;
     BookerReplacementTime "booker_replacement_time" ["s"] "How long nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team)
-        mean(&m.record.bookings[team.index()].replacement.seconds);
+        mean(m.booker_replacements(team));
     BookerReplacementTimeMedian "booker_replacement_time_median" ["s"] "The median of these times." (m, team)
-        quantile(&m.record.bookings[team.index()].replacement.seconds, 0.5);
+        median(m.booker_replacements(team));
     BookerReplacementTimeP95 "booker_replacement_time_p95" ["s"] "Their 95th percentile." (m, team)
-        quantile(&m.record.bookings[team.index()].replacement.seconds, 0.95);
+        quantile(m.booker_replacements(team), 0.95);
     BookerReplacementTimeLongest "booker_replacement_time_longest" ["s"] "The longest time that nobody went, in the robots' eyes, after the only one that did was switched off while another knew the ball." (m, team)
-        quantile(&m.record.bookings[team.index()].replacement.seconds, 1.0);
+        quantile(m.booker_replacements(team), 1.0);
     BelievedSeveral "believed_several" [""] "Share of play in which several robots of a booking team believed to go." (m, team)
         m.share(m.record.bookings[team.index()].several_go.total);
     LooseBallsWon "loose_balls_won" ["1/min"] "Balls that nobody had touched for a second and that it got, for a minute." (m, team)
