@@ -7,7 +7,9 @@ use touchline::comms::tcm::DataType;
 use touchline::data::{AssetKind, ron_options};
 use touchline::game::{Choice, Match, MatchPlan};
 use touchline::ids::{RobotId, Team};
-use touchline::lab::scenario::ScenarioPlan;
+use touchline::lab::experiment::{MatchFigures, Metric};
+use touchline::lab::scenario::{ScenarioPlan, ScenarioRef};
+use touchline::mind::teamwork::{LockRequests, Swapping};
 use touchline::protocol::policy::Policy;
 use touchline::strategy::Role;
 
@@ -94,4 +96,24 @@ fn the_case_based_rules_decide_in_the_situation_of_figure_8() {
         }
         assert_eq!(names(&mut game), expected, "{policy}");
     }
+}
+
+/// Home 1 asks three robots for their locks and crashes. Home 2 asks the two others that it hears, and its swap succeeds.
+#[test]
+fn locks_that_are_asked_for_granted_and_run_out_are_counted() {
+    let scenario = ScenarioRef::named(&assets(), "swap_locks_time_out:hardened");
+    let scenario = ScenarioPlan::read(&assets(), &scenario).expect("the shipped scenario is sound");
+    let mut game = Match::new(&scenario.with_seed(1));
+    for _ in 0..9 * 60 {
+        game.tick();
+    }
+    let mut robots = game.world_mut().query::<(&RobotId, &Swapping)>();
+    let mut requests: Vec<_> = robots.iter(game.world()).map(|(id, it)| (id.number, it.requests)).collect();
+    requests.sort_unstable_by_key(|(number, _)| *number);
+    let counts = |received, granted, ran_out| LockRequests { received, granted, ran_out };
+    let expected = [(0, counts(2, 2, 1)), (1, counts(0, 0, 0)), (2, counts(1, 1, 1)), (3, counts(2, 2, 1))];
+    assert_eq!(requests, expected);
+    let shares = [Metric::LocksGranted, Metric::LocksRunOut, Metric::SwapsCompleted]
+        .map(|metric| metric.value(MatchFigures::of(&game), Team::Home));
+    assert_eq!(shares, [Some(1.0), Some(3.0 / 5.0), Some(1.0 / 2.0)]);
 }

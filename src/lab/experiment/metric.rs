@@ -28,15 +28,8 @@ pub struct MatchFigures<'a> {
 /// The role swaps of a team, as those who began them and those who were asked for their locks know.
 #[derive(Clone, Copy, Default)]
 struct SwapFigures {
-    begun: f64,
-    completed: f64,
-    without_locks: f64,
-    without_acks: f64,
-    /// Of those that were completed, in ticks.
-    ticks: f64,
-    requests: f64,
-    granted: f64,
-    ran_out: f64,
+    attempts: SwapAttempts,
+    requests: LockRequests,
 }
 
 impl<'a> MatchFigures<'a> {
@@ -87,6 +80,16 @@ impl<'a> MatchFigures<'a> {
         &self.record.bookings[team.index()].replacement.seconds
     }
 
+    /// The role swaps that its robots began.
+    fn attempts(&self, team: Team) -> SwapAttempts {
+        self.swaps[team.index()].attempts
+    }
+
+    /// The locks that its robots were asked for.
+    fn requests(&self, team: Team) -> LockRequests {
+        self.swaps[team.index()].requests
+    }
+
     fn removed(&self, team: Team, reason: RemovalReason) -> f64 {
         self.record.removals.count(reason)[team.index()].into()
     }
@@ -98,7 +101,8 @@ fn ratio(part: f64, whole: f64) -> f64 {
 }
 
 /// Of nothing there is none.
-fn some_ratio(part: f64, whole: f64) -> Option<f64> {
+fn some_ratio(part: impl Into<f64>, whole: impl Into<f64>) -> Option<f64> {
+    let (part, whole) = (part.into(), whole.into());
     (whole > 0.0).then(|| part / whole)
 }
 
@@ -106,17 +110,9 @@ fn swaps(world: &World) -> [SwapFigures; 2] {
     let mut swaps = [SwapFigures::default(); 2];
     if let Some(mut robots) = world.try_query::<(&RobotId, &Swapping)>() {
         for (id, swapping) in robots.iter(world) {
-            let SwapAttempts { begun, completed, without_locks, without_acks, ticks, .. } = swapping.attempts;
             let of = &mut swaps[id.team.index()];
-            of.begun += f64::from(begun);
-            of.completed += f64::from(completed);
-            of.without_locks += f64::from(without_locks);
-            of.without_acks += f64::from(without_acks);
-            of.ticks += count(ticks);
-            let LockRequests { received, granted, ran_out } = swapping.requests;
-            of.requests += f64::from(received);
-            of.granted += f64::from(granted);
-            of.ran_out += f64::from(ran_out);
+            of.attempts += swapping.attempts;
+            of.requests += swapping.requests;
         }
     }
     swaps
@@ -244,7 +240,7 @@ metrics! {
         m.per_minute(m.record.localisation[team.index()].recoveries);
     PlaceRecoveryTime "place_recovery_time" ["s"] "How long it took in the mean from over 0.5 m to within 0.25 m of where it believed to be, as after a kidnapping." (m, team) {
         let localisation = &m.record.localisation[team.index()];
-        some_ratio(localisation.recovering, localisation.recoveries.into())
+        some_ratio(localisation.recovering, localisation.recoveries)
     };
     KicksTried "kicks_tried" ["1/min"] "Kicks that it began, for a minute of play." (m, team)
         m.per_minute(m.record.kicks[team.index()].tried);
@@ -271,21 +267,21 @@ metrics! {
     RoleDoubledLongest "role_doubled_longest" ["s"] "Longest time in which more robots played a role than at the kick-off." (m, team)
         m.record.role_cover[team.index()].doubled.longest;
     SwapsBegun "swaps_begun" ["1/min"] "Role swaps that its robots began, for a minute of play." (m, team)
-        m.per_minute(m.swaps[team.index()].begun);
+        m.per_minute(m.attempts(team).begun);
     SwapsCompleted "swaps_completed" [""] "Share of them that their initiators saw acknowledged by all." (m, team)
-        some_ratio(m.swaps[team.index()].completed, m.swaps[team.index()].begun);
+        some_ratio(m.attempts(team).completed, m.attempts(team).begun);
     SwapsWithoutLocks "swaps_without_locks" [""] "Share of them in which not everybody's lock came in time." (m, team)
-        some_ratio(m.swaps[team.index()].without_locks, m.swaps[team.index()].begun);
+        some_ratio(m.attempts(team).without_locks, m.attempts(team).begun);
     SwapsWithoutAcks "swaps_without_acks" [""] "Share of them in which all were locked and not every new role was acknowledged in time." (m, team)
-        some_ratio(m.swaps[team.index()].without_acks, m.swaps[team.index()].begun);
+        some_ratio(m.attempts(team).without_acks, m.attempts(team).begun);
     SwapTime "swap_time" ["s"] "How long the completed ones took in the mean, from the first LOCK to the last ACKSWAP." (m, team)
-        some_ratio(m.swaps[team.index()].ticks * m.dt, m.swaps[team.index()].completed);
+        some_ratio(count(m.attempts(team).ticks) * m.dt, m.attempts(team).completed);
     LocksAsked "locks_asked" ["1/min"] "LOCKs of mates that reached its robots, for a minute of play." (m, team)
-        m.per_minute(m.swaps[team.index()].requests);
+        m.per_minute(m.requests(team).received);
     LocksGranted "locks_granted" [""] "Share of them that were answered with a lock; the others were refused." (m, team)
-        some_ratio(m.swaps[team.index()].granted, m.swaps[team.index()].requests);
+        some_ratio(m.requests(team).granted, m.requests(team).received);
     LocksRunOut "locks_run_out" [""] "Share of the locks given that ran out before a new role came." (m, team)
-        some_ratio(m.swaps[team.index()].ran_out, m.swaps[team.index()].granted);
+        some_ratio(m.requests(team).ran_out, m.requests(team).granted);
     InvariantsBroken "invariants_broken" [""] "How often something did not hold for too long that must hold of every match." (m, team)
         m.broken(team);
     StateChanges "state_changes" ["1/min"] "How often its robots changed the state of their machine, for a minute." (m, team)

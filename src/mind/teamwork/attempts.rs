@@ -1,5 +1,7 @@
 //! What became of the role swaps that a robot has begun, and of the locks that it was asked for.
 
+use std::ops::AddAssign;
+
 use crate::protocol::role_swap::Outcome;
 
 /// The attempts at a role swap that a robot has initiated since the match began, whatever it forgot meanwhile.
@@ -44,6 +46,18 @@ impl SwapAttempts {
     }
 }
 
+/// Those of several robots; what still goes on is not told.
+impl AddAssign for SwapAttempts {
+    fn add_assign(&mut self, other: SwapAttempts) {
+        let SwapAttempts { begun, completed, without_locks, without_acks, ticks, since: _ } = other;
+        self.begun += begun;
+        self.completed += completed;
+        self.without_locks += without_locks;
+        self.without_acks += without_acks;
+        self.ticks += ticks;
+    }
+}
+
 /// The locks that others have asked a robot for since the match began.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LockRequests {
@@ -53,6 +67,14 @@ pub struct LockRequests {
     pub granted: u32,
     /// Locks whose timer ran out before a new role came.
     pub ran_out: u32,
+}
+
+impl AddAssign for LockRequests {
+    fn add_assign(&mut self, LockRequests { received, granted, ran_out }: LockRequests) {
+        self.received += received;
+        self.granted += granted;
+        self.ran_out += ran_out;
+    }
 }
 
 #[cfg(test)]
