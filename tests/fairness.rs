@@ -135,4 +135,4 @@ fn mirrored_duels_are_won_by_either_side_alike() {
 }
 
 /// As many as it takes for 500 that are decided.
-const DUELS: u64 = 700;
+const DUELS: u64 = 750;

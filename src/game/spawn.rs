@@ -12,7 +12,7 @@ use crate::rng::Seed;
 use crate::robot::{RobotBodies, RobotKind, RobotStart, Trailer, TrailerKind};
 use crate::state::apply_event;
 use crate::world::ball::{Ball, BallDice, Rolling};
-use crate::world::physics::{register_bodies, trailer_shape, unit_shapes};
+use crate::world::physics::{Squeezable, register_bodies, trailer_shape, unit_shapes};
 use crate::world::referee::MatchState;
 
 /// Spawns the ball where the match begins.
@@ -32,6 +32,7 @@ pub(super) fn spawn_ball(world: &mut World, plan: &MatchPlan) {
         Velocity::linear(velocity),
         rigid_body(Collider::ball(kind.radius), kind.mass, kind.friction, kind.restitution, pose),
         Ccd::enabled(),
+        Squeezable,
     ));
     register_bodies(world);
 }

@@ -16,6 +16,7 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_rapier2d::prelude::*;
 use bevy_rapier2d::rapier::dynamics::{IntegrationParameters, RigidBody as Body, RigidBodySet};
+use bevy_rapier2d::rapier::geometry::{ColliderHandle, NarrowPhase};
 
 use crate::clock::Clock;
 use crate::geometry::{Pose, Twist};
@@ -54,9 +55,10 @@ pub(super) fn plugin(app: &mut App) {
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
 struct RegisterBodies;
 
-/// Solver iterations of a step. Two keep the hitch within 0.1 mm, since our wheel model solves it as well; a ball between
-/// two robots wants four.
-const SOLVER_ITERATIONS: usize = 4;
+/// Solver iterations of a step. Two keep the hitch within 0.1 mm, since our wheel model solves it as well.
+const SOLVER_ITERATIONS: usize = 2;
+/// Those while a light body is between two others, into which it would sink.
+const SQUEEZE_ITERATIONS: usize = 4;
 /// How stiff contacts between bodies are, Hz. At Rapier's 30 Hz a ball of 90 g gives way to legs by 3 mm.
 const CONTACT_FREQUENCY: f32 = 120.0;
 /// The gap that continuous collision leaves between fast bodies, m; Rapier's 5 mm is a tenth of a ball.
@@ -65,10 +67,25 @@ const CONTACT_SLOP: f32 = 0.001;
 /// Rapier's contacts suit bodies of a metre. Its stale contacts, which it keeps until a pair has moved by 5 cm, let a small
 /// ball sink into robots by its radius and more.
 fn set_contacts(parameters: &mut IntegrationParameters) {
-    parameters.num_solver_iterations = SOLVER_ITERATIONS;
     parameters.contact_softness.natural_frequency = CONTACT_FREQUENCY;
     parameters.normalized_allowed_linear_error = CONTACT_SLOP;
     parameters.contact_recycling = false;
+}
+
+/// A body so light that it is squeezed between others: the ball.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Squeezable;
+
+/// As many as the contacts of a light body ask for that the last step has found; those to come within 2 cm count.
+fn solver_iterations(narrow_phase: &NarrowPhase, light: Option<&Body>) -> usize {
+    let is_squeezed = |part: &ColliderHandle| {
+        narrow_phase.contact_pairs_with(*part).filter(|pair| pair.has_any_active_contact()).nth(1).is_some()
+    };
+    if light.is_some_and(|body| body.colliders().iter().any(is_squeezed)) {
+        SQUEEZE_ITERATIONS
+    } else {
+        SOLVER_ITERATIONS
+    }
 }
 
 /// Rapier's bodies, for the stages that push them.
@@ -144,6 +161,7 @@ pub fn turn_to_poses(mut bodies: Bodies, poses: Query<(&RapierRigidBodyHandle, &
 
 pub(crate) fn step(
     clock: Res<Clock>,
+    light: Option<Single<&RapierRigidBodyHandle, With<Squeezable>>>,
     world: Single<(
         &mut RapierContextSimulation,
         &mut RapierContextColliders,
@@ -155,6 +173,9 @@ pub(crate) fn step(
     let simulation = &mut *simulation;
     let joints = &mut *joints;
     simulation.integration_parameters.dt = clock.dt;
+    let light = light.and_then(|handle| bodies.bodies.get(handle.0));
+    simulation.integration_parameters.num_solver_iterations =
+        solver_iterations(&simulation.narrow_phase, light);
     limit_speeds(&mut bodies.bodies);
     simulation.pipeline.step(
         Vec2::ZERO,
@@ -179,7 +200,9 @@ const FASTEST: f32 = 50.0;
 const FASTEST_TURN: f32 = 100.0;
 
 fn limit_speeds(bodies: &mut RigidBodySet) {
-    let is_fast = |body: &Body| body.linvel().length() > FASTEST || body.angvel().abs() > FASTEST_TURN;
+    let is_fast = |body: &Body| {
+        body.linvel().length_squared() > FASTEST * FASTEST || body.angvel().abs() > FASTEST_TURN
+    };
     // Whatever is borrowed mutably counts as changed.
     let fast: Vec<_> = bodies.iter().filter(|(_, body)| is_fast(body)).map(|(handle, _)| handle).collect();
     for handle in fast {

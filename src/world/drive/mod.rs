@@ -15,7 +15,7 @@ use smallvec::SmallVec;
 
 pub use differential::steer;
 pub use walker::{GaitError, Trunk, push_legs, stride};
-pub use wheels::{Rigid, push_wheels};
+pub use wheels::{Rigid, WheelContacts, push_wheels};
 
 use crate::clock::Clock;
 use crate::geometry::wrap_angle;
@@ -25,7 +25,7 @@ use crate::robot::handling::Handling;
 use crate::robot::pilot::Pilot;
 use crate::robot::{
     DifferentialDrive, Drive, DriveCommand, Footing, Gait, GaitNoise, Odometry, Orders, Robot, RobotBodies,
-    RobotStart, SteeringIntent, TrailerKind, Walker, WheelSpeeds,
+    RobotStart, SteeringIntent, Walker, WheelSpeeds,
 };
 use crate::schedule::{Tick, TickSystems};
 use crate::state::RegisterState;
@@ -141,15 +141,30 @@ pub(crate) struct Pushed {
 pub(crate) fn push_bodies(clock: Res<Clock>, mut bodies: Bodies, mut robots: Query<Pushed>) {
     let mut in_order: SmallVec<[_; 8]> = robots.iter_mut().collect();
     in_order.sort_unstable_by_key(|pushed| pushed.handles.unit.0.into_raw_parts());
+    let (mut rolling, mut wheels) =
+        (SmallVec::<[RobotBodies; 8]>::new(), SmallVec::<[WheelContacts; 8]>::new());
     for mut pushed in in_order {
         match (&pushed.robot.kind.drive, *pushed.command) {
             (Drive::Differential(drive), DriveCommand::Wheels(speeds)) => {
-                pushed.roll(speeds, drive, &mut bodies, &clock);
+                if let Some(pushing) = pushed.wheel_contacts(speeds, drive, &bodies, &clock) {
+                    rolling.push(*pushed.handles);
+                    wheels.push(pushing);
+                }
             }
             (Drive::Walker(walker), DriveCommand::Gait(gait)) => {
                 pushed.walk(gait, walker, &mut bodies, &clock);
             }
             (Drive::Differential(_) | Drive::Walker(_), _) => {}
+        }
+    }
+    push_wheels(&mut wheels);
+    for (handles, wheels) in rolling.iter().zip(&wheels) {
+        let moved = [Some(handles.unit), handles.trailer].into_iter().zip(wheels.bodies());
+        for (handle, state) in moved.filter_map(|(handle, state)| handle.zip(state)) {
+            if let Some(body) = bodies.get_mut(&handle) {
+                body.set_linvel(state.linear, false);
+                body.set_angvel(state.angular, false);
+            }
         }
     }
 }
@@ -161,22 +176,19 @@ impl PushedItem<'_, '_> {
         self.robot.kind.contact.map_or((1.0, 0.0), |cost| (cost.share(strain), cost.turn_error(strain)))
     }
 
-    fn roll(&self, speeds: WheelSpeeds, drive: &DifferentialDrive, bodies: &mut Bodies, clock: &Clock) {
-        let handles = self.handles;
-        let Some(mut unit) = bodies.get(&handles.unit).map(rigid) else { return };
-        let kind: Option<&TrailerKind> = self.robot.kind.trailer.as_ref();
+    fn wheel_contacts(
+        &self,
+        speeds: WheelSpeeds,
+        drive: &DifferentialDrive,
+        bodies: &Bodies,
+        clock: &Clock,
+    ) -> Option<WheelContacts> {
+        let unit = bodies.get(&self.handles.unit).map(rigid)?;
+        let trailer = self.handles.trailer.and_then(|handle| bodies.get(&handle)).map(rigid);
         let (share, _) = self.cost();
         let (wheel_force, grip) = (drive.wheel_force * share, drive.grip * share);
         let drive = &DifferentialDrive { wheel_force, grip, ..*drive };
-        let mut trailer = handles.trailer.and_then(|handle| bodies.get(&handle)).map(rigid);
-        push_wheels(&mut unit, trailer.as_mut().zip(kind), speeds, drive, clock.dt);
-        let moved = [Some(handles.unit).zip(Some(unit)), handles.trailer.zip(trailer)];
-        for (handle, state) in moved.into_iter().flatten() {
-            if let Some(body) = bodies.get_mut(&handle) {
-                body.set_linvel(state.linear, false);
-                body.set_angvel(state.angular, false);
-            }
-        }
+        Some(WheelContacts::new(unit, trailer.zip(self.robot.kind.trailer.as_ref()), speeds, drive, clock.dt))
     }
 
     fn walk(&mut self, gait: Gait, walker: &Walker, bodies: &mut Bodies, clock: &Clock) {

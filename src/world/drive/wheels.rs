@@ -29,96 +29,160 @@ pub struct Rigid {
     pub inverse_inertia: f32,
 }
 
-impl Rigid {
-    fn velocity_at(&self, point: Vec2) -> Vec2 {
-        self.linear + self.angular * (point - self.centre).perp()
+/// A point of a body, at which impulses act on it.
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    /// From the centre of mass, m.
+    arm: Vec2,
+    /// 1/kg.
+    inverse_mass: f32,
+    /// 1/(kg·m²).
+    inverse_inertia: f32,
+}
+
+impl Joint {
+    fn at(body: &Rigid, point: Vec2) -> Joint {
+        let (arm, inverse_mass) = (point - body.centre, 1.0 / body.mass);
+        Joint { arm, inverse_mass, inverse_inertia: body.inverse_inertia }
     }
 
-    fn push(&mut self, impulse: Vec2, point: Vec2) {
-        self.linear += impulse / self.mass;
-        self.angular += self.inverse_inertia * (point - self.centre).perp_dot(impulse);
+    fn velocity(&self, body: &Rigid) -> Vec2 {
+        body.linear + body.angular * self.arm.perp()
     }
 
-    /// The mass that an impulse along `direction` at `point` has to move, kg.
-    fn mass_felt(&self, point: Vec2, direction: Vec2) -> f32 {
-        let lever = (point - self.centre).perp_dot(direction);
-        1.0 / (1.0 / self.mass + self.inverse_inertia * lever * lever)
+    fn push(&self, body: &mut Rigid, impulse: Vec2) {
+        body.linear += impulse * self.inverse_mass;
+        body.angular += self.inverse_inertia * self.arm.perp_dot(impulse);
+    }
+
+    /// How much the velocity there changes for an impulse along a direction, 1/kg.
+    fn yields(&self, direction: Vec2) -> Vec2 {
+        self.inverse_mass * direction + self.inverse_inertia * self.arm.perp_dot(direction) * self.arm.perp()
     }
 }
 
 /// An impulse along one direction that drives the velocity there to a target, within a limit over all passes.
+#[derive(Clone, Debug)]
 struct Contact {
-    point: Vec2,
+    joint: Joint,
     direction: Vec2,
     target: f32,
     limit: f32,
+    /// What an impulse along the direction has to move, kg.
     mass: f32,
     applied: f32,
 }
 
 impl Contact {
     fn new(body: &Rigid, point: Vec2, direction: Vec2, target: f32, limit: f32) -> Contact {
-        let mass = body.mass_felt(point, direction);
-        Contact { point, direction, target, limit, mass, applied: 0.0 }
+        let joint = Joint::at(body, point);
+        let mass = 1.0 / direction.dot(joint.yields(direction));
+        Contact { joint, direction, target, limit, mass, applied: 0.0 }
     }
 
     fn solve(&mut self, body: &mut Rigid) {
-        let missing = self.target - body.velocity_at(self.point).dot(self.direction);
+        let missing = self.target - self.joint.velocity(body).dot(self.direction);
         let wanted = (self.applied + missing * self.mass).clamp(-self.limit, self.limit);
-        body.push((wanted - self.applied) * self.direction, self.point);
+        self.joint.push(body, (wanted - self.applied) * self.direction);
         self.applied = wanted;
     }
 }
 
-/// Changes the velocities of a drive unit and its trailer by what their wheels do in `dt` seconds.
-pub fn push_wheels(
-    unit: &mut Rigid,
-    trailer: Option<(&mut Rigid, &TrailerKind)>,
-    wheels: WheelSpeeds,
-    drive: &DifferentialDrive,
-    dt: f32,
-) {
-    let left = unit.forward.perp();
-    let hub = left * (drive.track / 2.0);
-    let push = drive.wheel_force * dt;
-    let grip = drive.grip * unit.mass * GRAVITY * dt;
-    let mut contacts = [
-        Contact::new(unit, unit.hitch, left, 0.0, grip),
-        Contact::new(unit, unit.hitch + hub, unit.forward, wheels.left, push),
-        Contact::new(unit, unit.hitch - hub, unit.forward, wheels.right, push),
-    ];
-    let Some((trailer, kind)) = trailer else {
-        for _ in 0..PASSES {
-            contacts.iter_mut().for_each(|contact| contact.solve(unit));
-        }
-        return;
-    };
-    let axle = trailer.hitch - trailer.forward * kind.axle;
-    let weight = trailer.mass * GRAVITY * dt;
-    let mut trailer_contacts = [
-        Contact::new(trailer, axle, trailer.forward.perp(), 0.0, kind.grip * weight),
-        Contact::new(trailer, axle, trailer.forward, 0.0, kind.rolling * weight),
-    ];
-    for _ in 0..PASSES {
-        contacts.iter_mut().for_each(|contact| contact.solve(unit));
-        trailer_contacts.iter_mut().for_each(|contact| contact.solve(trailer));
-        couple(unit, trailer);
+/// What keeps the hitch points of a drive unit and its trailer together.
+#[derive(Clone, Debug)]
+struct Hitch {
+    unit: Joint,
+    trailer: Joint,
+    /// The impulses for a difference of velocities of 1 m/s along x and along y, kg m/s.
+    impulses: [Vec2; 2],
+}
+
+impl Hitch {
+    fn new(unit: &Rigid, trailer: &Rigid) -> Hitch {
+        let (unit, trailer) = (Joint::at(unit, unit.hitch), Joint::at(trailer, trailer.hitch));
+        let [x, y] = [Vec2::X, Vec2::Y].map(|axis| unit.yields(axis) + trailer.yields(axis));
+        let impulses = [Vec2::new(y.y, -x.y), Vec2::new(-y.x, x.x)].map(|column| column / x.perp_dot(y));
+        Hitch { unit, trailer, impulses }
+    }
+
+    /// Takes away the difference of the two bodies' velocities there.
+    fn solve(&self, unit: &mut Rigid, trailer: &mut Rigid) {
+        let gap = self.trailer.velocity(trailer) - self.unit.velocity(unit);
+        let impulse = self.impulses[0] * gap.x + self.impulses[1] * gap.y;
+        self.unit.push(unit, impulse);
+        self.trailer.push(trailer, -impulse);
     }
 }
 
-/// The impulse at the hitch that takes away the difference of the two bodies' velocities there.
-fn couple(unit: &mut Rigid, trailer: &mut Rigid) {
-    let gap = trailer.velocity_at(trailer.hitch) - unit.velocity_at(unit.hitch);
-    let arms = [(unit.hitch - unit.centre, &*unit), (trailer.hitch - trailer.centre, &*trailer)];
-    let (mut a, mut b, mut c) = (0.0, 0.0, 0.0);
-    for (arm, body) in arms {
-        a += 1.0 / body.mass + body.inverse_inertia * arm.y * arm.y;
-        b -= body.inverse_inertia * arm.x * arm.y;
-        c += 1.0 / body.mass + body.inverse_inertia * arm.x * arm.x;
+/// A drive unit and its trailer, if it has one, and what their wheels do in a tick.
+#[derive(Clone, Debug)]
+pub struct WheelContacts {
+    unit: Rigid,
+    contacts: [Contact; 3],
+    trailer: Option<TrailerContacts>,
+}
+
+#[derive(Clone, Debug)]
+struct TrailerContacts {
+    body: Rigid,
+    contacts: [Contact; 2],
+    hitch: Hitch,
+}
+
+impl WheelContacts {
+    /// Those that push for `dt` seconds.
+    pub fn new(
+        unit: Rigid,
+        trailer: Option<(Rigid, &TrailerKind)>,
+        speeds: WheelSpeeds,
+        drive: &DifferentialDrive,
+        dt: f32,
+    ) -> WheelContacts {
+        let left = unit.forward.perp();
+        let hub = left * (drive.track / 2.0);
+        let push = drive.wheel_force * dt;
+        let grip = drive.grip * unit.mass * GRAVITY * dt;
+        let contacts = [
+            Contact::new(&unit, unit.hitch, left, 0.0, grip),
+            Contact::new(&unit, unit.hitch + hub, unit.forward, speeds.left, push),
+            Contact::new(&unit, unit.hitch - hub, unit.forward, speeds.right, push),
+        ];
+        let trailer = trailer.map(|(body, kind)| TrailerContacts::new(body, &unit, kind, dt));
+        WheelContacts { unit, contacts, trailer }
     }
-    let impulse = Vec2::new(c * gap.x - b * gap.y, a * gap.y - b * gap.x) / (a * c - b * b);
-    unit.push(impulse, unit.hitch);
-    trailer.push(-impulse, trailer.hitch);
+
+    /// The drive unit and its trailer.
+    pub fn bodies(&self) -> [Option<&Rigid>; 2] {
+        [Some(&self.unit), self.trailer.as_ref().map(|trailer| &trailer.body)]
+    }
+
+    fn pass(&mut self) {
+        self.contacts.iter_mut().for_each(|contact| contact.solve(&mut self.unit));
+        if let Some(TrailerContacts { body, contacts, hitch }) = &mut self.trailer {
+            contacts.iter_mut().for_each(|contact| contact.solve(body));
+            hitch.solve(&mut self.unit, body);
+        }
+    }
+}
+
+impl TrailerContacts {
+    fn new(body: Rigid, unit: &Rigid, kind: &TrailerKind, dt: f32) -> TrailerContacts {
+        let axle = body.hitch - body.forward * kind.axle;
+        let weight = body.mass * GRAVITY * dt;
+        let contacts = [
+            Contact::new(&body, axle, body.forward.perp(), 0.0, kind.grip * weight),
+            Contact::new(&body, axle, body.forward, 0.0, kind.rolling * weight),
+        ];
+        TrailerContacts { hitch: Hitch::new(unit, &body), body, contacts }
+    }
+}
+
+/// Changes the velocities of drive units and trailers by what their wheels do. Robots take turns, pass by pass: a pass of one
+/// waits for its last, while the passes of several go on at once in the processor.
+pub fn push_wheels(robots: &mut [WheelContacts]) {
+    for _ in 0..PASSES {
+        robots.iter_mut().for_each(WheelContacts::pass);
+    }
 }
 
 #[cfg(test)]
@@ -148,21 +212,24 @@ mod tests {
         }
     }
 
+    fn pushed(unit: Rigid, speeds: WheelSpeeds) -> Rigid {
+        let mut wheels = [WheelContacts::new(unit, None, speeds, &DRIVE, 0.01)];
+        push_wheels(&mut wheels);
+        wheels[0].unit
+    }
+
     #[test]
     fn two_wheels_push_with_no_more_than_their_force() {
-        let mut body = unit(Vec2::ZERO);
-        push_wheels(&mut body, None, WheelSpeeds { left: 1.0, right: 1.0 }, &DRIVE, 0.01);
+        let body = pushed(unit(Vec2::ZERO), WheelSpeeds { left: 1.0, right: 1.0 });
         assert!((body.linear.x - 2.0 * 20.0 * 0.01 / 5.0).abs() < 1e-5, "{}", body.linear.x);
         assert!(body.linear.y.abs() < 1e-6 && body.angular.abs() < 1e-5);
     }
 
     #[test]
     fn a_shove_from_the_side_beyond_the_grip_makes_it_slide() {
-        let mut gentle = unit(Vec2::new(0.0, 0.05));
-        push_wheels(&mut gentle, None, WheelSpeeds::default(), &DRIVE, 0.01);
+        let gentle = pushed(unit(Vec2::new(0.0, 0.05)), WheelSpeeds::default());
         assert!(gentle.linear.y.abs() < 1e-6);
-        let mut hard = unit(Vec2::new(0.0, 1.0));
-        push_wheels(&mut hard, None, WheelSpeeds::default(), &DRIVE, 0.01);
+        let hard = pushed(unit(Vec2::new(0.0, 1.0)), WheelSpeeds::default());
         assert!((hard.linear.y - (1.0 - 0.8 * 9.81 * 0.01)).abs() < 1e-5, "{}", hard.linear.y);
     }
 
@@ -171,8 +238,9 @@ mod tests {
         let mut front = unit(Vec2::new(1.0, 0.0));
         let mut rear = Rigid { centre: Vec2::new(-0.2, 0.1), mass: 4.0, ..unit(Vec2::new(0.0, 0.3)) };
         let before = front.linear * front.mass + rear.linear * rear.mass;
-        couple(&mut front, &mut rear);
-        assert!((front.velocity_at(Vec2::ZERO) - rear.velocity_at(Vec2::ZERO)).length() < 1e-5);
+        Hitch::new(&front, &rear).solve(&mut front, &mut rear);
+        let velocity = |body: &Rigid| Joint::at(body, body.hitch).velocity(body);
+        assert!((velocity(&front) - velocity(&rear)).length() < 1e-5);
         assert!((front.linear * front.mass + rear.linear * rear.mass - before).length() < 1e-5);
     }
 }
