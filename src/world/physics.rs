@@ -76,7 +76,7 @@ fn set_contacts(parameters: &mut IntegrationParameters) {
 #[derive(Component, Clone, Copy, Debug)]
 pub struct Squeezable;
 
-/// As many as the contacts of a light body ask for that the last step has found; those to come within 2 cm count.
+/// More where the last step has found a light body in touch with two others, or within 2 cm of touching.
 fn solver_iterations(narrow_phase: &NarrowPhase, light: Option<&Body>) -> usize {
     let is_squeezed = |part: &ColliderHandle| {
         narrow_phase.contact_pairs_with(*part).filter(|pair| pair.has_any_active_contact()).nth(1).is_some()

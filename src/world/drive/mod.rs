@@ -222,6 +222,7 @@ fn rigid(body: &Body) -> Rigid {
         linear: body.linvel(),
         angular: body.angvel(),
         mass: body.mass(),
+        inverse_mass: 1.0 / body.mass(),
         inverse_inertia: properties.effective_world_inv_inertia,
     }
 }

@@ -25,46 +25,33 @@ pub struct Rigid {
     pub angular: f32,
     /// kg.
     pub mass: f32,
+    /// 1/kg.
+    pub inverse_mass: f32,
     /// 1/(kg·m²).
     pub inverse_inertia: f32,
 }
 
-/// A point of a body, at which impulses act on it.
-#[derive(Clone, Copy, Debug)]
-struct Joint {
-    /// From the centre of mass, m.
-    arm: Vec2,
-    /// 1/kg.
-    inverse_mass: f32,
-    /// 1/(kg·m²).
-    inverse_inertia: f32,
-}
-
-impl Joint {
-    fn at(body: &Rigid, point: Vec2) -> Joint {
-        let (arm, inverse_mass) = (point - body.centre, 1.0 / body.mass);
-        Joint { arm, inverse_mass, inverse_inertia: body.inverse_inertia }
+/// An arm goes from the centre of mass to a point of the body, m.
+impl Rigid {
+    fn velocity_at(&self, arm: Vec2) -> Vec2 {
+        self.linear + self.angular * arm.perp()
     }
 
-    fn velocity(&self, body: &Rigid) -> Vec2 {
-        body.linear + body.angular * self.arm.perp()
+    fn push(&mut self, impulse: Vec2, arm: Vec2) {
+        self.linear += impulse * self.inverse_mass;
+        self.angular += self.inverse_inertia * arm.perp_dot(impulse);
     }
 
-    fn push(&self, body: &mut Rigid, impulse: Vec2) {
-        body.linear += impulse * self.inverse_mass;
-        body.angular += self.inverse_inertia * self.arm.perp_dot(impulse);
-    }
-
-    /// How much the velocity there changes for an impulse along a direction, 1/kg.
-    fn yields(&self, direction: Vec2) -> Vec2 {
-        self.inverse_mass * direction + self.inverse_inertia * self.arm.perp_dot(direction) * self.arm.perp()
+    /// How much the velocity at the end of an arm changes for an impulse along a direction, 1/kg.
+    fn yields(&self, direction: Vec2, arm: Vec2) -> Vec2 {
+        self.inverse_mass * direction + self.inverse_inertia * arm.perp_dot(direction) * arm.perp()
     }
 }
 
 /// An impulse along one direction that drives the velocity there to a target, within a limit over all passes.
 #[derive(Clone, Debug)]
 struct Contact {
-    joint: Joint,
+    arm: Vec2,
     direction: Vec2,
     target: f32,
     limit: f32,
@@ -75,15 +62,15 @@ struct Contact {
 
 impl Contact {
     fn new(body: &Rigid, point: Vec2, direction: Vec2, target: f32, limit: f32) -> Contact {
-        let joint = Joint::at(body, point);
-        let mass = 1.0 / direction.dot(joint.yields(direction));
-        Contact { joint, direction, target, limit, mass, applied: 0.0 }
+        let arm = point - body.centre;
+        let mass = 1.0 / direction.dot(body.yields(direction, arm));
+        Contact { arm, direction, target, limit, mass, applied: 0.0 }
     }
 
     fn solve(&mut self, body: &mut Rigid) {
-        let missing = self.target - self.joint.velocity(body).dot(self.direction);
+        let missing = self.target - body.velocity_at(self.arm).dot(self.direction);
         let wanted = (self.applied + missing * self.mass).clamp(-self.limit, self.limit);
-        self.joint.push(body, (wanted - self.applied) * self.direction);
+        body.push((wanted - self.applied) * self.direction, self.arm);
         self.applied = wanted;
     }
 }
@@ -91,26 +78,27 @@ impl Contact {
 /// What keeps the hitch points of a drive unit and its trailer together.
 #[derive(Clone, Debug)]
 struct Hitch {
-    unit: Joint,
-    trailer: Joint,
+    /// The drive unit's arm and the trailer's.
+    arms: [Vec2; 2],
     /// The impulses for a difference of velocities of 1 m/s along x and along y, kg m/s.
     impulses: [Vec2; 2],
 }
 
 impl Hitch {
     fn new(unit: &Rigid, trailer: &Rigid) -> Hitch {
-        let (unit, trailer) = (Joint::at(unit, unit.hitch), Joint::at(trailer, trailer.hitch));
-        let [x, y] = [Vec2::X, Vec2::Y].map(|axis| unit.yields(axis) + trailer.yields(axis));
+        let arms = [unit, trailer].map(|body| body.hitch - body.centre);
+        let [x, y] =
+            [Vec2::X, Vec2::Y].map(|axis| unit.yields(axis, arms[0]) + trailer.yields(axis, arms[1]));
         let impulses = [Vec2::new(y.y, -x.y), Vec2::new(-y.x, x.x)].map(|column| column / x.perp_dot(y));
-        Hitch { unit, trailer, impulses }
+        Hitch { arms, impulses }
     }
 
     /// Takes away the difference of the two bodies' velocities there.
     fn solve(&self, unit: &mut Rigid, trailer: &mut Rigid) {
-        let gap = self.trailer.velocity(trailer) - self.unit.velocity(unit);
+        let gap = trailer.velocity_at(self.arms[1]) - unit.velocity_at(self.arms[0]);
         let impulse = self.impulses[0] * gap.x + self.impulses[1] * gap.y;
-        self.unit.push(unit, impulse);
-        self.trailer.push(trailer, -impulse);
+        unit.push(impulse, self.arms[0]);
+        trailer.push(-impulse, self.arms[1]);
     }
 }
 
@@ -208,6 +196,7 @@ mod tests {
             linear,
             angular: 0.0,
             mass: 5.0,
+            inverse_mass: 0.2,
             inverse_inertia: 10.0,
         }
     }
@@ -236,10 +225,15 @@ mod tests {
     #[test]
     fn the_hitch_moves_as_one_point_and_keeps_momentum() {
         let mut front = unit(Vec2::new(1.0, 0.0));
-        let mut rear = Rigid { centre: Vec2::new(-0.2, 0.1), mass: 4.0, ..unit(Vec2::new(0.0, 0.3)) };
+        let mut rear = Rigid {
+            centre: Vec2::new(-0.2, 0.1),
+            mass: 4.0,
+            inverse_mass: 0.25,
+            ..unit(Vec2::new(0.0, 0.3))
+        };
         let before = front.linear * front.mass + rear.linear * rear.mass;
         Hitch::new(&front, &rear).solve(&mut front, &mut rear);
-        let velocity = |body: &Rigid| Joint::at(body, body.hitch).velocity(body);
+        let velocity = |body: &Rigid| body.velocity_at(body.hitch - body.centre);
         assert!((velocity(&front) - velocity(&rear)).length() < 1e-5);
         assert!((front.linear * front.mass + rear.linear * rear.mass - before).length() < 1e-5);
     }
